@@ -1,0 +1,60 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "image/color.h"
+#include "image/image.h"
+
+namespace sateen {
+
+/// What a picture file says of itself before its pixels are read.
+struct ImageFileInfo {
+  int width = 0, height = 0, channels = 0;
+  std::vector<std::string> channel_names;
+  std::string format;       ///< "openexr", "hdr", "tiff" ...
+  std::string pixel_type;   ///< "half", "float", "uint8" ...
+  std::string color_space;  ///< as the file states it; empty where it does not
+  std::optional<ColorManager::Chromaticities> chromaticities;
+};
+
+struct ImageLimits {
+  int side = 32768;                    ///< pixels
+  long long decoded_bytes = 1ll << 30; ///< as float, checked in 64 bit before allocation
+};
+
+ImageFileInfo read_image_info(const std::filesystem::path& path);
+
+/// All channels as float. Only regular files within `limits`; InputError says what was found and expected.
+/// Deep, tiled, mip-mapped and multi-part files: the first flat part's full resolution; data windows are placed
+/// in their display window (black outside).
+Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {}, ImageFileInfo* info = nullptr);
+
+/// One named group of channels of an OpenEXR file.
+struct ImageLayer {
+  std::string name;                    ///< empty for the beauty; else channels become "name.R" ...
+  std::vector<std::string> channels;   ///< "R","G","B","A" or "X","Y","Z" or "U","V" ...
+  bool half = false;
+  Image image;
+};
+
+using Attribute = std::variant<int, double, std::string>;
+using Attributes = std::map<std::string, Attribute>;  ///< "sateen:spp" ...
+
+/// Writes an OpenEXR file whole or not at all (base/files), reads it back and compares before it takes its name.
+/// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header.
+long long write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,
+                    const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
+
+/// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.
+/// Dithered to 8 bit with a fixed blue-noise-like pattern so that smooth satin does not band. Verified like write_exr.
+void write_display_image(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
+                         int bits = 8);
+
+/// Attributes of a picture that the program wrote, "sateen:..." keys and Software; empty when there are none.
+Attributes read_attributes(const std::filesystem::path& path);
+
+}  // namespace sateen
