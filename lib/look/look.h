@@ -17,11 +17,11 @@ struct ColorValue {
 /// volume term. `color` wins over A where it is given: A is then solved so that a cloth woven of this family's
 /// threads alone would show `color` under white light at normal view.
 struct ThreadFamily {
-  float eta = 1.46f;           ///< index of refraction, 1 to 3
-  float k_d = 0.3f;            ///< isotropic share of the volume term, 0 to 1
-  float gamma_s_deg = 12;      ///< width of the surface lobe (standard deviation), 0.5 to 90
-  float gamma_v_deg = 24;      ///< width of the volume lobe, 0.5 to 180
-  float coverage = 0.5f;       ///< a_j, share of the cloth's area, 0 to 1
+  float eta = 1.46f;       ///< index of refraction, 1 to 3
+  float k_d = 0.3f;        ///< isotropic share of the volume term, 0 to 1
+  float gamma_s_deg = 12;  ///< width of the surface lobe (standard deviation), 0.5 to 90
+  float gamma_v_deg = 24;  ///< width of the volume lobe, 0.5 to 180
+  float coverage = 0.5f;   ///< a_j, share of the cloth's area, 0 to 1
   ColorValue A{Color(0.3f, 0.3f, 0.3f), {}};
   std::optional<ColorValue> color;
   std::vector<float> offsets_deg{0, 0};  ///< tangent offsets o_0 ... o_k, -90 to 90
@@ -30,17 +30,17 @@ struct ThreadFamily {
 
 /// A fabric as authored: human units, a default on every field. Warp runs along x = dP/du, weft along y.
 struct Look {
-  std::string name;         ///< file name without extension
+  std::string name;  ///< file name without extension
   std::string title;
   std::string description;
-  std::string source;       ///< where the numbers come from
+  std::string source;  ///< where the numbers come from
   std::string color_space = "lin_rec709";
   ThreadFamily warp, weft;
-  float masking_width_deg = 20;      ///< sigma of u in M and P (2013: 15 to 25), 5 to 60
-  float warp_angle_deg = 0;          ///< turns the warp about the normal, from dP/du towards dP/dv, -180 to 180
-  std::string back;         ///< name or path of another look for the back of the cloth; empty: the same
+  float masking_width_deg = 20;  ///< sigma of u in M and P (2013: 15 to 25), 5 to 60
+  float warp_angle_deg = 0;      ///< turns the warp about the normal, from dP/du towards dP/dv, -180 to 180
+  std::string back;              ///< name or path of another look for the back of the cloth; empty: the same
 
-  std::string file;                  ///< where it was read from; not part of the look's hash
+  std::string file;  ///< where it was read from; not part of the look's hash
 };
 
 }  // namespace sateen

@@ -1,0 +1,148 @@
+#include "look/describe.h"
+
+#include <fmt/format.h>
+
+#include "base/files.h"
+#include "look/field_values.h"
+
+namespace sateen {
+
+namespace {
+
+struct Family {
+  const char* name;
+  ThreadFamily Look::*member;
+};
+constexpr Family families[] = {{"warp", &Look::warp}, {"weft", &Look::weft}};
+
+std::string joined(const std::vector<std::string>& lines, const std::string& indent) {
+  std::string text;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    text += indent;
+    text += lines[i];
+    text += i + 1 < lines.size() ? ",\n" : "\n";
+  }
+  return text;
+}
+
+std::string bounds(const Field& field) {
+  std::string text;
+  if (std::isfinite(field.low)) text += fmt::format(", \"minimum\": {:g}", field.low);
+  if (std::isfinite(field.high)) text += fmt::format(", \"maximum\": {:g}", field.high);
+  return text;
+}
+
+std::string type_schema(const Field& field) {
+  const std::string number = fmt::format("{{\"type\": \"number\"{}}}", bounds(field));
+  const bool offsets = field.key == "offsets_deg";
+  switch (field.kind) {
+    case FieldKind::text:
+    case FieldKind::look_name:
+      return "\"type\": \"string\"";
+    case FieldKind::name:
+      return "\"type\": \"string\", \"minLength\": 1";
+    case FieldKind::number:
+      return fmt::format("\"type\": \"number\"{}", bounds(field));
+    case FieldKind::numbers:
+      return fmt::format("\"type\": \"array\", \"minItems\": {}, \"maxItems\": {}, \"items\": {}",
+                         fewest_offsets - (offsets ? 0 : 1), most_offsets - (offsets ? 0 : 1), number);
+    case FieldKind::color: {
+      const std::string triple =
+          fmt::format("{{\"type\": \"array\", \"minItems\": 3, \"maxItems\": 3, \"items\": {}}}", number);
+      return fmt::format(
+          "\"anyOf\": [{0}, {{\"type\": \"object\", \"properties\": {{\"value\": {0}, \"space\": {{\"type\": "
+          "\"string\", "
+          "\"minLength\": 1}}}}, \"required\": [\"value\"], \"additionalProperties\": false}}]",
+          triple);
+    }
+  }
+  return {};
+}
+
+std::string property(const Field& field) {
+  const std::string initial = field_text(Look(), field);
+  return fmt::format("{}: {{\"description\": {}, {}{}}}", json_quote(field.key),
+                     json_quote(field.unit.empty() ? field.help : field.help + ", in " + field.unit),
+                     type_schema(field), initial.empty() ? std::string() : fmt::format(", \"default\": {}", initial));
+}
+
+}  // namespace
+
+std::string write_look(const Look& look) {
+  std::vector<std::string> top;
+  for (const Field& field : fields()) {
+    const std::string value = field_text(look, field);
+    if (!field.family && !value.empty() && value != "\"\"")
+      top.push_back(fmt::format("\"{}\": {}", field.key, value));
+  }
+  for (const Family& family : families) {
+    std::vector<std::string> own;
+    for (const Field& field : fields())
+      if (const std::string value = field_text(look, field); field.family == family.member && !value.empty())
+        own.push_back(fmt::format("\"{}\": {}", field.key, value));
+    top.push_back(fmt::format("\"{}\": {{\n{}  }}", family.name, joined(own, "    ")));
+  }
+  return fmt::format("{{\n{}}}\n", joined(top, "  "));
+}
+
+std::vector<FieldDifference> diff_looks(const Look& a, const Look& b) {
+  std::vector<FieldDifference> differences;
+  for (const Field& field : fields()) {
+    if (!field.appearance) continue;
+    std::string in_a = canonical_text(a, field), in_b = canonical_text(b, field);
+    if (in_a == in_b) continue;
+    // Shown as they are written, unless only the space tells them apart.
+    if (field_text(a, field) != field_text(b, field)) in_a = field_text(a, field), in_b = field_text(b, field);
+    differences.push_back({field.path, std::move(in_a), std::move(in_b)});
+  }
+  return differences;
+}
+
+std::string look_hash(const Look& look) {
+  Hash hash;
+  hash.add("look 1\n");
+  for (const Field& field : fields()) {
+    const std::string value = canonical_text(look, field);
+    if (field.appearance && !value.empty()) hash.add(field.path).add("=").add(value).add("\n");
+  }
+  return hash.hex();
+}
+
+std::string look_schema() {
+  std::vector<std::string> top{
+      "\"$schema\": {\"description\": \"Where this schema is, for editors\", \"type\": \"string\"}",
+      "\"inherits\": {\"description\": \"Name or path of the look whose values this one starts from\", "
+      "\"type\": \"string\", \"minLength\": 1}"};
+  std::vector<std::string> family;
+  for (const Field& field : fields()) {
+    if (!field.family) top.push_back(property(field));
+    if (field.family == &Look::warp) family.push_back(property(field));
+  }
+  for (const Family& each : families)
+    top.push_back(fmt::format("\"{}\": {{\"$ref\": \"#/$defs/family\"}}", each.name));
+  return fmt::format(
+      "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"A look: one cloth\",\n"
+      "  \"type\": \"object\",\n  \"additionalProperties\": false,\n  \"properties\": {{\n{}  }},\n"
+      "  \"$defs\": {{\n    \"family\": {{\n      \"description\": \"One family of threads\",\n"
+      "      \"type\": \"object\",\n      \"additionalProperties\": false,\n"
+      "      \"not\": {{\"required\": [\"A\", \"color\"]}},\n      \"properties\": {{\n{}      }}\n    }}\n  "
+      "}}\n}}\n",
+      joined(top, "    "), joined(family, "        "));
+}
+
+std::string look_field_help() {
+  std::string text;
+  size_t widest = 0;
+  for (const Field& field : fields()) widest = std::max(widest, field.path.size());
+  for (const Field& field : fields()) {
+    std::string facts = range_text(field);
+    if (!field.unit.empty()) facts += " " + field.unit;
+    if (const std::string initial = field_text(Look(), field); !initial.empty() && initial != "\"\"")
+      facts += fmt::format("{}default {}", facts.empty() ? "" : ", ", initial);
+    text += fmt::format("{:<{}}  {}{}\n", field.path, widest, field.help,
+                        facts.empty() ? "" : fmt::format(" ({})", facts));
+  }
+  return text;
+}
+
+}  // namespace sateen

@@ -1,0 +1,32 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "look/fields.h"
+#include "look/json.h"
+
+namespace sateen {
+
+/// Takes one complaint: its place in the text, found and expected, and the remedy (may be empty).
+using Report = std::function<void(const JsonPlace& place, std::string message, std::string help)>;
+
+/// Sets the field from a value of a look file after checking its kind and range; `name` is what messages call it.
+/// False when there was something to report; the look is then unchanged. Giving `color` resets A to its default
+/// and giving A drops `color`: a family has one or the other.
+bool set_field(Look& look, const Field& field, const JsonValue& value, std::string_view name, const Report& report);
+
+/// The value as JSON, on one line, such that reading it back gives the same bits. Empty where the field holds
+/// nothing: a shorthand, a `color` that is not given, an A that `color` stands in for.
+std::string field_text(const Look& look, const Field& field);
+
+/// The same with every colour's space written out, so that equal cloths have equal texts.
+std::string canonical_text(const Look& look, const Field& field);
+
+/// "0.5 to 90", "0 or more"; empty for texts.
+std::string range_text(const Field& field);
+
+/// Gives every colour of the look that relies on `color_space` that space by name.
+void pin_color_spaces(Look& look);
+
+}  // namespace sateen

@@ -1,0 +1,173 @@
+#include "look/overrides.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "look/consistency.h"
+#include "look/field_values.h"
+#include "look/json.h"
+#include "look/read.h"
+
+namespace sateen {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+// People type .5 and +5, which JSON does not know.
+std::string with_json_numbers(std::string_view typed) {
+  std::string json;
+  for (const char c : typed) {
+    const bool after_digit = !json.empty() && std::isdigit(static_cast<unsigned char>(json.back()));
+    const bool after_exponent = !json.empty() && (json.back() == 'e' || json.back() == 'E');
+    if (c == '+' && !after_digit && !after_exponent) continue;
+    if (c == '.' && !after_digit) json += '0';
+    json += c;
+  }
+  return json;
+}
+
+// What the user typed, as a value: texts may come without quotes and lists without brackets.
+JsonValue typed_value(const Field& field, std::string_view typed) {
+  const bool is_text =
+      field.kind == FieldKind::text || field.kind == FieldKind::name || field.kind == FieldKind::look_name;
+  std::string json(trimmed(typed));
+  if (is_text && !json.starts_with('"')) json = json_quote(typed);
+  if (!is_text && json.find('"') == std::string::npos) json = with_json_numbers(json);
+  if (!is_text && field.kind != FieldKind::number && !json.starts_with('[') && !json.starts_with('{'))
+    json = fmt::format("[{}]", json);
+  try {
+    JsonDocument document = parse_json(json, {});
+    if (!document.problems.empty()) throw InputError(InputError::Kind::wrong, document.problems);
+    return document.root;
+  } catch (const InputError&) {
+    JsonValue value;
+    value.kind = is_text ? JsonValue::Kind::null : JsonValue::Kind::text;
+    value.text = trimmed(typed);
+    return value;
+  }
+}
+
+std::string_view path_of(std::string_view text) {
+  return trimmed(text.substr(0, text.find('=')));
+}
+
+// As in a file, where colours may stand before the space that they are in.
+std::vector<std::string> color_space_first(std::vector<std::string> overrides) {
+  std::stable_partition(overrides.begin(), overrides.end(),
+                        [](const std::string& text) { return path_of(text) == "color_space"; });
+  return overrides;
+}
+
+std::string path_help(const std::string& path) {
+  std::vector<std::string> paths;
+  for (const Field& field : fields()) {
+    if (field.family == &Look::warp && (field.key == path || field.key == path + "_deg"))
+      return fmt::format("did you mean warp.{0} or weft.{0}?", field.key);
+    if (field.path == path + "_deg") return fmt::format("did you mean {}?", field.path);
+    paths.push_back(field.path);
+  }
+  if (path == "inherits") return "choose the look itself instead";
+  return suggestion(path, paths);
+}
+
+}  // namespace
+
+std::string key_help(const std::string& key, const std::string& family) {
+  std::vector<std::string> here;
+  bool elsewhere = false;
+  for (const Field& field : fields()) {
+    const bool same_level = family.empty() ? !field.family : field.path == family + "." + field.key;
+    if (same_level) here.push_back(field.key);
+    if (same_level && field.key == key + "_deg") return fmt::format("did you mean {}?", field.key);
+    elsewhere = elsewhere || (!same_level && field.key == key);
+  }
+  if (family.empty()) here.insert(here.end(), {"inherits", "warp", "weft"});
+  if (elsewhere && family.empty()) return "it belongs inside \"warp\" or \"weft\"";
+  if (elsewhere || (!family.empty() && key == "inherits")) return "it belongs at the top level";
+  return suggestion(key, here);
+}
+
+std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::vector<std::string>& overrides) {
+  Look changed = look;
+  std::vector<Diagnostic> complaints;
+  std::vector<std::pair<std::string, std::string>> set;  // path of a field and the text that set it
+  const auto complain = [&](const std::string& text, std::string message, std::string help) {
+    Diagnostic d;
+    d.file = "--set " + shown_name(text);
+    d.message = std::move(message);
+    d.help = std::move(help);
+    complaints.push_back(std::move(d));
+  };
+  for (const std::string& text : color_space_first(overrides)) {
+    const size_t equals = text.find('=');
+    const std::string path(path_of(text));
+    const Field* field = find_field(path);
+    if (equals == std::string::npos) {
+      complain(text, "has no =, expected path=value", "for example warp.gamma_s_deg=4");
+      continue;
+    }
+    if (!field) {
+      complain(text, "there is no field " + shown_name(path), path_help(path));
+      continue;
+    }
+    const Report report = [&](const JsonPlace&, std::string message, std::string help) {
+      complain(text, std::move(message), std::move(help));
+    };
+    const Look before = changed;
+    if (!set_field(changed, *field, typed_value(*field, std::string_view(text).substr(equals + 1)), path, report))
+      continue;
+    if (path == "color_space" && changed.color_space != before.color_space) {
+      // As in a file that inherits: what was there keeps its meaning, what follows is in the new space.
+      const std::string space = changed.color_space;
+      changed = before;
+      pin_color_spaces(changed);
+      changed.color_space = space;
+    }
+    if (field->kind == FieldKind::look_name && !changed.back.empty()) {
+      try {
+        const auto path = find_look_beside(changed.back, changed.file);
+        if (changed.back.find('/') != std::string::npos)
+          changed.back = std::filesystem::absolute(path).lexically_normal().string();
+      } catch (const InputError& error) {
+        complain(text, fmt::format("there is no look {}", shown_name(changed.back)), error.diagnostics.front().help);
+      }
+    }
+    if (field->is_shorthand()) {
+      set.emplace_back("warp." + field->key, text);
+      set.emplace_back("weft." + field->key, text);
+    } else {
+      set.emplace_back(path, text);
+    }
+  }
+  if (complaints.empty())
+    check_consistency(changed, [&](const std::vector<std::string>& paths, std::string message, std::string help) {
+      std::string culprit;
+      for (const auto& [path, text] : set)
+        if (std::find(paths.begin(), paths.end(), path) != paths.end()) culprit = text;
+      complain(culprit, std::move(message), std::move(help));
+    });
+  if (!complaints.empty()) throw InputError(InputError::Kind::wrong, std::move(complaints));
+  look = std::move(changed);
+  std::vector<std::string> paths;
+  for (const auto& [path, text] : set) paths.push_back(path);
+  return paths;
+}
+
+void apply_overrides(Look& look, const std::vector<std::string>& overrides) {
+  apply_overrides_naming_fields(look, overrides);
+}
+
+void apply_override(Look& look, const std::string& text) {
+  apply_overrides_naming_fields(look, {text});
+}
+
+}  // namespace sateen
