@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace sateen {
 /// goes through here, and OpenColorIO's headers stay in this file's source.
 class ColorManager {
  public:
-  /// `config`: a path, or empty for $OCIO, else the project's own built-in config. `working`: a colour space of the
-  /// config, or empty for its scene_linear role. InputError, loudly, where the config is missing or refused.
+  /// `config`: a path, "built-in", or empty for $OCIO, else the project's own built-in config. `working`: a colour
+  /// space of the config, or empty for its scene_linear role. InputError, loudly, where the config is missing or
+  /// refused.
   explicit ColorManager(const std::string& config = {}, const std::string& working = {});
   ~ColorManager();
   ColorManager(ColorManager&&) noexcept;
@@ -32,12 +34,21 @@ class ColorManager {
   Color from_working(const Color& value, const std::string& space) const;
   void to_working(Image& image, const std::string& space) const;  ///< first three channels, in place
 
+  /// The space that a file rule of the config gives to this path; nullopt where only the default rule matches or the
+  /// config (version 1) has no rules.
+  std::optional<std::string> space_of_file(const std::string& path) const;
+
   /// Working space, scaled by 2^exposure_ev, to display code values in [0, 1]; alpha untouched.
   void to_display(Image& image, const std::string& display, const std::string& view, float exposure_ev) const;
 
   /// CIE xy of the working space's primaries and white as OpenEXR's `chromaticities` attribute wants them.
-  struct Chromaticities { float red[2], green[2], blue[2], white[2]; };
+  struct Chromaticities {
+    float red[2], green[2], blue[2], white[2];
+  };
   Chromaticities working_chromaticities() const;
+
+  /// Relative luminance Y of the working space's three unit primaries (they add up to 1). AP0's blue is negative.
+  Color luminance_weights() const;
 
   /// Linear RGB of a space given by its chromaticities (Bradford-adapted) to the working space.
   void chromaticities_to_working(Image& image, const Chromaticities& from) const;

@@ -22,8 +22,8 @@ struct ImageFileInfo {
 };
 
 struct ImageLimits {
-  int side = 32768;                    ///< pixels
-  long long decoded_bytes = 1ll << 30; ///< as float, checked in 64 bit before allocation
+  int side = 32768;                     ///< pixels
+  long long decoded_bytes = 1ll << 30;  ///< as float, checked in 64 bit before allocation
 };
 
 ImageFileInfo read_image_info(const std::filesystem::path& path);
@@ -35,8 +35,8 @@ Image read_image(const std::filesystem::path& path, const ImageLimits& limits = 
 
 /// One named group of channels of an OpenEXR file.
 struct ImageLayer {
-  std::string name;                    ///< empty for the beauty; else channels become "name.R" ...
-  std::vector<std::string> channels;   ///< "R","G","B","A" or "X","Y","Z" or "U","V" ...
+  std::string name;                   ///< empty for the beauty; else channels become "name.R" ...
+  std::vector<std::string> channels;  ///< "R","G","B","A" or "X","Y","Z" or "U","V" ...
   bool half = false;
   Image image;
 };
@@ -50,9 +50,11 @@ long long write_exr(const std::filesystem::path& path, const std::vector<ImageLa
                     const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
 
 /// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.
-/// Dithered to 8 bit with a fixed blue-noise-like pattern so that smooth satin does not band. Verified like write_exr.
+/// Dithered to 8 bit (png, tif) with a fixed blue-noise pattern so that smooth satin does not band. Verified like
+/// write_exr. Colours are written as they are, beside alpha and not multiplied by it, as PNG wants; JPEG drops alpha.
+/// `srgb`: the codes are sRGB's, and a PNG says so; else they are Rec.1886 Rec.709's.
 void write_display_image(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
-                         int bits = 8);
+                         int bits = 8, bool srgb = true);
 
 /// Attributes of a picture that the program wrote, "sateen:..." keys and Software; empty when there are none.
 Attributes read_attributes(const std::filesystem::path& path);

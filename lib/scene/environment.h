@@ -1,20 +1,26 @@
 #pragma once
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "image/color.h"
 #include "image/image.h"
 #include "math/vector.h"
+#include "sampling/distribution.h"
 
 namespace sateen {
 
-/// What had to be mended in a map, with the first place of each kind (pixel x, y from the top left).
+/// What had to be mended in a map, in pixels, with the first place of each kind (x, y from the top left).
 struct EnvironmentRepairs {
-  struct Kind { std::int64_t count = 0; int first_x = -1, first_y = -1; };
-  Kind not_a_number, infinite, negative;
-  bool any() const { return not_a_number.count || infinite.count || negative.count; }
+  struct Kind {
+    std::int64_t count = 0;
+    int first_x = -1, first_y = -1;
+  };
+  Kind not_a_number;  ///< made 0
+  Kind infinite;      ///< +Inf, or beyond 1e35 after exposure: made the map's largest finite value; -Inf made 0
+  Kind negative;      ///< made 0, in the space of the file
+  Kind out_of_gamut;  ///< became negative by conversion to the working space: made 0
+  Kind spike;         ///< suspicious, NOT changed: one channel stands alone, see find_spikes
+  bool any() const { return not_a_number.count || infinite.count || negative.count || out_of_gamut.count; }
 };
 
 enum class EnvironmentDensity {
@@ -22,25 +28,77 @@ enum class EnvironmentDensity {
   compensated  ///< proportional to max(0, L - mean L), Karlik et al. 2019; the plain one where that is all zero
 };
 
-/// A lat-long map as a light at infinity. Row 0 is up (+Y). Direction d has longitude u = atan2(d.x, -d.z)/(2 pi) + 1/2
-/// (so -Z, the way the default camera looks, is the middle of the map) and colatitude v = acos(d.y)/pi. Radiance is constant in a texel,
-/// so that look-up and density agree exactly. Compiled: working space, rotated by `rotation`, scaled by 2^ev.
+/// A lat-long map as a light at infinity. Row 0 is up (+Y). Direction d has longitude u = atan2(d.x, -d.z)/(2 pi) +
+/// 1/2 (so -Z, the way the default camera looks, is the middle of the map) and colatitude v = acos(d.y)/pi. Radiance
+/// is constant in a texel, so that look-up and density agree exactly. Compiled: working space, rotated, scaled by
+/// 2^ev.
 struct Environment {
+  /// Radiance and both densities of one texel side by side: a look-up touches one place in memory.
+  struct Texel {
+    Color radiance;
+    float pdf_radiance = 0, pdf_compensated = 0;  ///< solid angle [1/sr]
+  };
   int width = 0, height = 0;
-  struct Texel { Color radiance; float pad; };
   std::vector<Texel> texels;
   float rotation = 0;  ///< radians about +Y; positive turns the light to the right as the default camera sees it
   EnvironmentRepairs repairs;
   std::string name;
   Color mean_radiance{0, 0, 0};  ///< over the sphere
-  bool black = true;
-  // ... distributions: see environment.cpp
+  Color luminance{0, 0, 0};      ///< Y of the working space's unit primaries
+  bool black = true;             ///< nothing to draw: every pdf is 0
+
+  double rotation_turns = 0;        ///< rotation / 2 pi, in [0, 1)
+  std::vector<double> row_cosines;  ///< cos(pi y / height), height + 1 of them
+  Distribution2D by_radiance;
+  Distribution2D by_compensated;  ///< empty where it would be all zero: the plain one stands in
+  double edge_x = 0, edge_y = 0;  ///< samples keep this far from a texel's border, as a share of the texel
+};
+
+struct EnvironmentOptions {
+  float rotation = 0;     ///< radians
+  float exposure_ev = 0;  ///< radiance is scaled by 2^exposure_ev
+  std::string name;
+  Color luminance{0.2722287f, 0.6740818f, 0.0536895f};  ///< ColorManager::luminance_weights(); here ACEScg's
 };
 
 struct EnvironmentSample {
-  Vec3 direction;
-  Color radiance;
-  float pdf;  ///< solid angle [1/sr]; 0 when the map is black
+  Vec3 direction{0, 1, 0};
+  Color radiance{0, 0, 0};
+  float pdf = 0;  ///< solid angle [1/sr]; 0 when the map is black
 };
 
+/// Mends NaN, infinite and negative values of a map's first three channels in place, and looks for spikes.
+EnvironmentRepairs repair_radiance(Image& map);
+
+/// A one-channel map is grey, a two-channel one grey with alpha; of more the first three count. `map` is in the
+/// working space and is repaired first. Luminance for the densities floors each channel's weight at 0.02, so that a
+/// colour whose Y is zero or negative (AP0's blue) is drawn too. InputError for an empty map.
+Environment build_environment(Image map, const EnvironmentOptions& options = {});
+
+/// Texel that a direction (of any length) falls into; a NaN gives the first.
+inline const Environment::Texel& environment_texel(const Environment& environment, const Vec3& direction);
+
+inline Color environment_radiance(const Environment& environment, const Vec3& direction) {
+  return environment_texel(environment, direction).radiance;
+}
+
+inline float environment_pdf(const Environment& environment, EnvironmentDensity density, const Vec3& direction) {
+  const Environment::Texel& texel = environment_texel(environment, direction);
+  return density == EnvironmentDensity::radiance ? texel.pdf_radiance : texel.pdf_compensated;
+}
+
+/// Draws a direction by inversion: u1 the row, u0 the column, what is left of both the place in the texel, uniform in
+/// solid angle. Looking up the direction returns the texel drawn (tested), hence the same radiance and pdf.
+EnvironmentSample sample_environment(const Environment& environment, EnvironmentDensity density, double u0,
+                                     double u1);
+
+/// Bilinear look-up between texel centres, across the seam and over the poles, for seeing the map behind the cloth.
+Color environment_backdrop(const Environment& environment, const Vec3& direction);
+
+/// Exposure [EV] at which the map lights a grey card of 18 % to a luminance of 0.18, as an incident-light meter with
+/// a dome finds it that is held at the cloth towards the default camera (+Z). See metering.cpp for the definition.
+float metered_exposure_ev(const Environment& environment);
+
 }  // namespace sateen
+
+#include "scene/environment_texel.h"
