@@ -3,7 +3,7 @@
 #include <string>
 
 #include "mesh/obj.h"
-#include "mesh/shapes/shape_cages.h"
+#include "mesh/shape_cages.h"
 
 // The assembler takes the files in as they are: no generated source of a megabyte to compile.
 #define SATEEN_EMBED(name)                                     \

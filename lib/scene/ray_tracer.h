@@ -13,13 +13,20 @@ struct Ray {
   float t_min = 0, t_max = 1e30f;
 };
 
+/// Where a ray met the mesh. A quad is two flat triangles split along the diagonal from corner 1 to corner 3; (u, v) is (0,0) at
+/// corner 0, (1,0) at 1, (1,1) at 2, (0,1) at 3, linear on each triangle:
+///   u + v <= 1:  (1 - u - v) c0 + u c1 + v c3
+///   else:        (u + v - 1) c2 + (1 - u) c3 + (1 - v) c1
+/// surface_point() in scene/surface.h does this for all values.
 struct Hit {
   float t = 0;
   std::uint32_t quad = 0;
-  float u = 0, v = 0;  ///< Embree's quad coordinates: corner 0 at (0,0), 1 at (1,0), 2 at (1,1), 3 at (0,1)
+  float u = 0, v = 0;
 };
 
-/// Embree over the mesh's quads. The mesh must outlive it. Rays with a NaN or Inf miss and are never shown to Embree.
+/// Embree over the mesh's quads, whose buffers it shares: the mesh must outlive it and stay where it is. Rays with a
+/// NaN or Inf in origin or direction, or a NaN among t_min and t_max, miss and are never shown to Embree.
+/// OperationError when Embree fails; InputError when a quad uses a vertex that is out of range or not finite.
 class RayTracer {
  public:
   explicit RayTracer(const Mesh& mesh, int threads = 0);
@@ -28,7 +35,8 @@ class RayTracer {
 
   std::optional<Hit> closest_hit(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
-  std::int64_t memory_bytes() const;  ///< what Embree holds now
+  std::int64_t memory_bytes() const;       ///< what Embree holds now
+  std::int64_t peak_memory_bytes() const;  ///< the most that it held while building
 
  private:
   struct State;

@@ -1,0 +1,283 @@
+#include "mesh/obj.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/files.h"
+#include "mesh/obj_tags.h"
+#include "mesh/obj_text.h"
+
+namespace sateen {
+
+namespace {
+
+using obj::Number;
+using obj::Text;
+
+constexpr float too_large = 1e15f;
+
+/// Things that were mended, by kind, with the first line of each.
+struct Count {
+  int count = 0, first_line = 0;
+  void add(int line) {
+    if (count++ == 0) first_line = line;
+  }
+};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::string& name) : text_(text, name) { mesh_.name = name; }
+  ControlMesh read();
+
+ private:
+  bool read_number(std::string_view what, float& value, bool refuse_non_finite = true);
+  void read_position();
+  void read_uv();
+  void read_face();
+  bool read_corner(std::string_view word, int& position, int& uv);
+  bool read_index(std::string_view word, std::string_view what, size_t count, bool is_uv, int& index);
+  void keep_face(int line);
+  void check_forward_indices();
+  void drop_bad_uvs();
+  void warn(const Count& count, std::string_view what);
+
+  Text text_;
+  ControlMesh mesh_;
+  obj::Tags tags_;
+  std::vector<int> face_positions_, face_uvs_;  // the current face
+  bool any_uv_ = false;
+  int file_faces_ = 0;
+  std::vector<int> face_numbers_;  // filled from the first dropped face on
+  std::vector<int> bad_uvs_;
+  struct Forward { std::string_view word; int index; bool is_uv; };
+  std::vector<Forward> forward_;  // positive indices beyond what had been read when they were met
+  Count repeated_, unknown_, bad_uv_, mixed_uv_;
+};
+
+bool Reader::read_number(std::string_view what, float& value, bool refuse_non_finite) {
+  const std::string_view word = text_.next_word();
+  if (word.empty()) {
+    text_.error(word, fmt::format("{} is missing, expected a number", what));
+    return false;
+  }
+  const Number kind = obj::to_float(word, value);
+  if (kind == Number::malformed) {
+    text_.error(word, fmt::format("{} is '{}', expected a number", what, word.substr(0, 40)));
+    return false;
+  }
+  if (!refuse_non_finite) return true;
+  if (kind != Number::good || !(std::abs(value) < too_large)) {
+    text_.error(word, fmt::format("{} is {}, expected a finite number below 1e15", what, word.substr(0, 40)));
+    return false;
+  }
+  return true;
+}
+
+void Reader::read_position() {
+  Vec3 p(0, 0, 0);
+  // A position that is wrong still counts, so that later indices are judged as the author meant them.
+  if (read_number("x", p.x) && read_number("y", p.y)) read_number("z", p.z);
+  mesh_.positions.push_back(p);
+}
+
+void Reader::read_uv() {
+  Vec2 uv(0, 0);
+  if (read_number("u", uv.x, false)) {
+    const std::string_view word = text_.next_word();
+    if (!word.empty() && obj::to_float(word, uv.y) == Number::malformed)
+      text_.error(word, fmt::format("v is '{}', expected a number", word.substr(0, 40)));
+  }
+  if (!(std::abs(uv.x) < too_large && std::abs(uv.y) < too_large)) {
+    bad_uv_.add(text_.line());
+    bad_uvs_.push_back(int(mesh_.uvs.size()));
+    uv = Vec2(0, 0);
+  }
+  mesh_.uvs.push_back(uv);
+}
+
+bool Reader::read_index(std::string_view word, std::string_view what, size_t count, bool is_uv, int& index) {
+  long long value = 0;
+  if (!obj::to_integer(word, value)) {
+    text_.error(word, fmt::format("{} index is '{}', expected an integer", what, word.substr(0, 40)));
+    return false;
+  }
+  if (value == 0) {
+    text_.error(word, fmt::format("{} index is 0, expected 1 or more, or a negative one", what),
+                "OBJ counts from 1; -1 is the one read last");
+    return false;
+  }
+  if (value < 0 && -value > (long long)count) {
+    text_.error(word, fmt::format("{} index is {}, expected -1 to -{}", what, value, count));
+    return false;
+  }
+  if (value > INT32_MAX) {
+    text_.error(word, fmt::format("{} index is {}, expected at most {}", what, value, INT32_MAX));
+    return false;
+  }
+  index = value > 0 ? int(value - 1) : int((long long)count + value);
+  if (value > (long long)count) forward_.push_back({word, index, is_uv});
+  return true;
+}
+
+bool Reader::read_corner(std::string_view word, int& position, int& uv) {
+  // The one hot spot for indices: plain `v`, `v/vt`, `v//vn`, `v/vt/vn`. The normal's index is not looked at.
+  const size_t slash = word.find('/');
+  if (!read_index(word.substr(0, slash), "vertex", mesh_.positions.size(), false, position)) return false;
+  uv = -1;
+  if (slash == std::string_view::npos) return true;
+  const std::string_view rest = word.substr(slash + 1);
+  const std::string_view second = rest.substr(0, rest.find('/'));
+  return second.empty() || read_index(second, "texture coordinate", mesh_.uvs.size(), true, uv);
+}
+
+void Reader::read_face() {
+  face_positions_.clear();
+  face_uvs_.clear();
+  const int line = text_.line();
+  std::string_view first, last;
+  bool good = true, with_uv = false, without_uv = false;
+  for (std::string_view word = text_.next_word(); !word.empty(); word = text_.next_word()) {
+    if (first.empty()) first = word;
+    last = word;
+    int position = 0, uv = -1;
+    good = read_corner(word, position, uv) && good;
+    (uv < 0 ? without_uv : with_uv) = true;
+    face_positions_.push_back(position);
+    face_uvs_.push_back(uv);
+  }
+  if (face_positions_.size() < 3) {
+    const std::string_view words =
+        first.empty() ? last : std::string_view(first.data(), size_t(last.data() + last.size() - first.data()));
+    text_.error(first.empty() ? text_.next_word() : words,
+                fmt::format("face has {} corner{}, expected at least 3", face_positions_.size(),
+                            face_positions_.size() == 1 ? "" : "s"));
+    return;
+  }
+  if (!good) return;
+  if (with_uv && without_uv) {
+    mixed_uv_.add(line);
+    std::fill(face_uvs_.begin(), face_uvs_.end(), -1);
+  }
+  keep_face(line);
+}
+
+void Reader::keep_face(int line) {
+  // Corners that repeat their predecessor are dropped; a face that still meets a vertex twice is no polygon.
+  size_t kept = 0;
+  const size_t n = face_positions_.size();
+  for (size_t i = 0; i < n; ++i) {
+    if (face_positions_[i] == face_positions_[i + 1 < n ? i + 1 : 0]) continue;
+    face_positions_[kept] = face_positions_[i];
+    face_uvs_[kept] = face_uvs_[i];
+    ++kept;
+  }
+  bool polygon = kept >= 3;
+  if (kept <= 8) {
+    for (size_t i = 0; i < kept && polygon; ++i)
+      for (size_t j = i + 1; j < kept; ++j)
+        if (face_positions_[i] == face_positions_[j]) polygon = false;
+  } else {
+    std::vector<int> sorted(face_positions_.begin(), face_positions_.begin() + long(kept));
+    std::sort(sorted.begin(), sorted.end());
+    polygon = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  }
+  if (kept < n || !polygon) repeated_.add(line);
+  if (!polygon && face_numbers_.empty()) {
+    face_numbers_.resize(size_t(file_faces_));
+    for (int i = 0; i < file_faces_; ++i) face_numbers_[size_t(i)] = i;
+  }
+  ++file_faces_;
+  if (!polygon || !face_numbers_.empty()) face_numbers_.push_back(polygon ? int(mesh_.face_sizes.size()) : -1);
+  if (!polygon) return;
+  mesh_.face_sizes.push_back(int(kept));
+  mesh_.position_indices.insert(mesh_.position_indices.end(), face_positions_.begin(),
+                                face_positions_.begin() + long(kept));
+  any_uv_ = any_uv_ || face_uvs_[0] >= 0;
+  // Filled late: a file without texture coordinates pays nothing for them.
+  if (any_uv_) {
+    mesh_.uv_indices.resize(mesh_.position_indices.size() - kept, -1);
+    mesh_.uv_indices.insert(mesh_.uv_indices.end(), face_uvs_.begin(), face_uvs_.begin() + long(kept));
+  }
+}
+
+void Reader::check_forward_indices() {
+  for (const Forward& f : forward_) {
+    const size_t count = f.is_uv ? mesh_.uvs.size() : mesh_.positions.size();
+    if (size_t(f.index) < count || text_.gave_up()) continue;
+    const std::string_view what = f.is_uv ? "texture coordinate" : "vertex";
+    text_.error_anywhere(f.word, count == 0 ? fmt::format("{} index is {}, but the file holds none", what, f.word)
+                                            : fmt::format("{} index is {}, expected 1 to {}", what, f.word, count));
+  }
+}
+
+void Reader::drop_bad_uvs() {
+  if (bad_uvs_.empty() || !any_uv_) return;
+  std::vector<char> bad(mesh_.uvs.size(), 0);
+  for (const int i : bad_uvs_) bad[size_t(i)] = 1;
+  size_t at = 0;
+  for (const int size : mesh_.face_sizes) {
+    const auto begin = mesh_.uv_indices.begin() + long(at), end = begin + size;
+    if (std::any_of(begin, end, [&](int i) { return i >= 0 && bad[size_t(i)]; })) std::fill(begin, end, -1);
+    at += size_t(size);
+  }
+}
+
+void Reader::warn(const Count& count, std::string_view what) {
+  if (count.count)
+    mesh_.warnings.push_back(fmt::format("{}:{}: {} {}", mesh_.name, count.first_line, count.count, what));
+}
+
+ControlMesh Reader::read() {
+  bool seen_face = false;
+  while (!text_.gave_up() && text_.next_line()) {
+    if (text_.line_too_long()) {
+      const std::string_view word = text_.next_word();
+      text_.error(word.substr(0, 1), "line is longer than 1 MiB");
+      continue;
+    }
+    const std::string_view key = text_.next_word();
+    if (key.empty()) continue;
+    if (key == "v") {
+      read_position();
+    } else if (key == "vt") {
+      read_uv();
+    } else if (key == "f" || key == "fo") {
+      seen_face = true;
+      read_face();
+    } else if (key == "t") {
+      tags_.read(text_);
+    } else if (static_cast<unsigned char>(key[0]) < 0x20 || static_cast<unsigned char>(key[0]) >= 0x7f) {
+      unknown_.add(text_.line());
+    }
+  }
+  if (!text_.gave_up()) {
+    check_forward_indices();
+    if (text_.errors().empty()) tags_.apply(text_, face_numbers_, file_faces_, mesh_);
+  }
+  if (!text_.errors().empty()) throw InputError(InputError::Kind::wrong, std::move(text_.errors()));
+  if (mesh_.face_sizes.empty())
+    throw InputError(fmt::format("{}: {}", mesh_.name,
+                                 seen_face ? "no face is left after dropping those that use a vertex twice"
+                                           : "holds no face, expected at least one"));
+  drop_bad_uvs();
+  if (any_uv_) mesh_.uv_indices.resize(mesh_.position_indices.size(), -1);
+  if (!any_uv_) mesh_.uvs.clear();
+  warn(repeated_, "faces use a vertex twice: the repetition or the face was dropped");
+  warn(mixed_uv_, "faces have UVs at some corners only: their UVs were dropped");
+  warn(bad_uv_, "texture coordinates are not finite or reach 1e15: the faces that use them lost their UVs");
+  warn(unknown_, "lines are not text of an OBJ file: passed over");
+  return std::move(mesh_);
+}
+
+}  // namespace
+
+ControlMesh parse_obj(std::string_view text, const std::string& name) { return Reader(text, name).read(); }
+
+ControlMesh read_obj(const std::filesystem::path& path) {
+  constexpr std::uint64_t limit = std::uint64_t(16) << 30;
+  const std::string text = read_text_file(path, limit);
+  return parse_obj(text, path.string());
+}
+
+}  // namespace sateen

@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+#include "mesh/obj_text.h"
+
+namespace sateen::obj {
+
+/// The `t` lines of OpenSubdiv's OBJ dialect: `t NAME ints/floats/strings values...`, indices from 0. Collected while
+/// the file is read and applied when all vertices and faces are known. Tags that repeat are merged.
+class Tags {
+ public:
+  /// Reads the rest of the current line. Malformed or unknown tags are counted, not refused: other programs write
+  /// lines that begin with t too.
+  void read(Text& text);
+  /// `face_numbers[i]` is the place in the cage of the file's face i, or -1 where it was dropped; empty: all kept.
+  void apply(Text& text, const std::vector<int>& face_numbers, int file_faces, ControlMesh& mesh);
+
+ private:
+  struct Tag {
+    std::string_view name;
+    std::vector<long long> integers;
+    std::vector<std::string_view> integer_words;
+    std::vector<float> floats;
+  };
+  void apply_edges(Text& text, const Tag& tag, ControlMesh& mesh);
+  void apply_corners(Text& text, const Tag& tag, ControlMesh& mesh);
+
+  std::vector<Tag> tags_;
+  int ignored_ = 0, first_ignored_line_ = 0;
+};
+
+}  // namespace sateen::obj

@@ -1,0 +1,116 @@
+#include "mesh/obj_text.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace sateen::obj {
+
+namespace {
+// A backslash directly before a line's end is white space of the logical line, and so is the end itself.
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
+}  // namespace
+
+Text::Text(std::string_view text, std::string name) : name_(std::move(name)) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  begin_ = text.data();
+  end_ = begin_ + text.size();
+  line_begin_ = line_end_ = at_ = begin_;
+}
+
+bool Text::next_line() {
+  const bool first = line_ == 0;
+  const char* start = first ? begin_ : line_end_ + (line_end_ < end_ ? 1 : 0);
+  if (start >= end_) return false;
+  line_ = next_line_;
+  line_begin_ = at_ = start;
+  const char* from = start;
+  for (;;) {
+    const char* found = static_cast<const char*>(std::memchr(from, '\n', size_t(end_ - from)));
+    line_end_ = found ? found : end_;
+    ++next_line_;
+    const char* last = line_end_;
+    if (last > from && last[-1] == '\r') --last;
+    if (!found || last == from || last[-1] != '\\') return true;
+    from = found + 1;
+  }
+}
+
+std::string_view Text::next_word() {
+  const char* p = at_;
+  for (;; ++p) {
+    if (p >= line_end_) {
+      at_ = line_end_;
+      return {line_end_, 0};
+    }
+    if (is_space(*p)) continue;
+    if (*p == '\\' && (p + 1 == line_end_ || p[1] == '\n' || p[1] == '\r')) continue;
+    break;
+  }
+  if (*p == '#') {
+    at_ = line_end_;
+    return {line_end_, 0};
+  }
+  const char* start = p;
+  while (p < line_end_ && !is_space(*p) && *p != '#' &&
+         !(*p == '\\' && (p + 1 == line_end_ || p[1] == '\n' || p[1] == '\r')))
+    ++p;
+  at_ = p;
+  return {start, size_t(p - start)};
+}
+
+int Text::line_of(const char* place) const { return line_ + int(std::count(line_begin_, place, '\n')); }
+
+void Text::error(std::string_view word, std::string message, std::string help) {
+  add(word, line_of(word.data()), std::move(message), std::move(help));
+}
+
+void Text::error_anywhere(std::string_view word, std::string message, std::string help) {
+  add(word, 1 + int(std::count(begin_, word.data(), '\n')), std::move(message), std::move(help));
+}
+
+void Text::add(std::string_view word, int line, std::string message, std::string help) {
+  if (gave_up()) return;
+  const char* start = word.data();
+  while (start > begin_ && start[-1] != '\n') --start;
+  const char* stop = static_cast<const char*>(std::memchr(start, '\n', size_t(end_ - start)));
+  if (!stop) stop = end_;
+  if (stop > start && stop[-1] == '\r') --stop;
+  Diagnostic d;
+  d.file = name_;
+  d.line = line;
+  d.column = int(word.data() - start) + 1;
+  d.width = int(std::max<size_t>(word.size(), 1));
+  d.message = std::move(message);
+  d.help = std::move(help);
+  constexpr long most_shown = 4096;  // a hundred errors in lines of 1 MiB must not fill the memory
+  if (word.data() - start < most_shown) d.source_line.assign(start, size_t(std::min<long>(stop - start, most_shown)));
+  errors_.push_back(std::move(d));
+}
+
+Number to_float(std::string_view word, float& value) {
+  const char *first = word.data(), *last = first + word.size();
+  if (first < last && *first == '+') ++first;
+  const std::from_chars_result r = std::from_chars(first, last, value);
+  if (r.ec == std::errc::invalid_argument || r.ptr != last) return Number::malformed;
+  if (r.ec == std::errc::result_out_of_range) {
+    double wide = 0;
+    if (std::from_chars(first, last, wide).ec == std::errc()) {
+      value = float(wide);
+    } else {
+      const size_t e = word.find_first_of("eE");
+      const bool small = e != std::string_view::npos && e + 1 < word.size() && word[e + 1] == '-';
+      value = small ? 0.0f : INFINITY;
+    }
+  }
+  if (std::isnan(value)) return Number::not_a_number;
+  return std::isfinite(value) ? Number::good : Number::not_finite;
+}
+
+bool to_integer(std::string_view word, long long& value) {
+  const char *first = word.data(), *last = first + word.size();
+  if (first < last && *first == '+') ++first;
+  const std::from_chars_result r = std::from_chars(first, last, value);
+  return r.ec == std::errc() && r.ptr == last;
+}
+
+}  // namespace sateen::obj

@@ -1,0 +1,196 @@
+#include "mesh/subdivide.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <new>
+#include <optional>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "mesh/face_points.h"
+#include "mesh/limit_surface.h"
+#include "mesh/unrefined.h"
+#include "mesh/vertex_values.h"
+
+namespace sateen {
+
+namespace {
+
+// Signed area of each face in UV; the sign says which way round its UVs run.
+std::vector<bool> mirrored_faces(const ControlMesh& cage) {
+  std::vector<bool> mirrored(cage.face_sizes.size(), false);
+  if (cage.uv_indices.empty()) return mirrored;
+  size_t at = 0;
+  for (size_t face = 0; face < mirrored.size(); ++face) {
+    const size_t n = size_t(cage.face_sizes[face]);
+    double area = 0;
+    if (cage.uv_indices[at] >= 0) {
+      const Vec2 o = cage.uvs[size_t(cage.uv_indices[at])];
+      for (size_t i = 1; i + 1 < n; ++i) {
+        const Vec2 a = cage.uvs[size_t(cage.uv_indices[at + i])] - o;
+        const Vec2 b = cage.uvs[size_t(cage.uv_indices[at + i + 1])] - o;
+        area += double(a.x) * double(b.y) - double(a.y) * double(b.x);
+      }
+    }
+    mirrored[face] = area < 0;
+    at += n;
+  }
+  return mirrored;
+}
+
+struct BorderSample { std::uint32_t vertex; SurfaceSample sample; };
+
+/// What one run of faces found at its shared vertices.
+struct Chunk {
+  std::vector<BorderSample> border;
+  std::optional<Refusal> refusal;
+};
+
+class Evaluation {
+ public:
+  Evaluation(const LimitSurface& surface, const Numbering& numbering, Mesh& mesh)
+      : surface_(surface), numbering_(numbering), mesh_(mesh), values_(mesh, numbering.vertices) {
+    mesh_.quads.resize(numbering.face_quad.back());
+  }
+  void run(int threads);
+  VertexValues& values() { return values_; }
+
+ private:
+  void run_faces(size_t begin, size_t end, Chunk& chunk);
+
+  const LimitSurface& surface_;
+  const Numbering& numbering_;
+  Mesh& mesh_;
+  VertexValues values_;
+};
+
+void Evaluation::run_faces(size_t begin, size_t end, Chunk& chunk) {
+  LimitSurface::Patch patch(surface_);
+  FacePoints face_points;
+  chunk.border.clear();
+  try {
+    for (size_t face = begin; face < end; ++face) {
+      if (!numbering_.has_limit[face]) continue;
+      patch.set_face(int(face));
+      face_points.set_face(numbering_, face);
+      for (size_t i = 0; i < face_points.points.size(); ++i) {
+        const FacePoint& point = face_points.points[i];
+        const SurfaceSample sample = patch.evaluate(point.st, point.towards);
+        if (i < face_points.border)
+          chunk.border.push_back({point.vertex, sample});
+        else
+          values_.set(point.vertex, sample);
+      }
+      std::copy(face_points.quads.begin(), face_points.quads.end(), mesh_.quads.begin() + numbering_.face_quad[face]);
+    }
+  } catch (const Refusal& refusal) {
+    chunk.refusal = refusal;
+  }
+}
+
+void Evaluation::run(int threads) {
+  // Samples on shared vertices are summed serially in the order of the faces, batch by batch: the sums do not depend
+  // on the number of threads, and the batch bounds the memory that waits for them.
+  constexpr size_t samples_in_a_batch = 200'000, chunks_in_a_batch = 64;
+  const size_t faces = numbering_.has_limit.size();
+  const size_t border = 4 * size_t(numbering_.segments);
+  const size_t chunk_faces = std::max<size_t>(samples_in_a_batch / border / chunks_in_a_batch, 1);
+  std::vector<Chunk> chunks(chunks_in_a_batch);
+  for (size_t begin = 0; begin < faces; begin += chunk_faces * chunks_in_a_batch) {
+    const size_t count = std::min(chunks_in_a_batch, (faces - begin + chunk_faces - 1) / chunk_faces);
+    parallel_for(int(count), threads, [&](int i) {
+      const size_t from = begin + size_t(i) * chunk_faces;
+      run_faces(from, std::min(from + chunk_faces, faces), chunks[size_t(i)]);
+    });
+    for (size_t i = 0; i < count; ++i) {
+      if (chunks[i].refusal) throw *chunks[i].refusal;
+      for (const BorderSample& b : chunks[i].border) values_.add(b.vertex, b.sample);
+    }
+  }
+  for (const Numbering::Copy& copy : numbering_.copies)
+    for (std::uint32_t k = 0; k < copy.count; ++k) mesh_.positions[copy.to + k] = mesh_.positions[copy.from + k];
+}
+
+Mesh refine(const ControlMesh& cage, int level, int threads) {
+  const ControlPoints points = control_points(cage);
+  const auto refiner = cage_topology(cage, points);
+  const LimitSurface surface(*refiner, points, level);
+  std::vector<bool> has_limit(cage.face_sizes.size());
+  for (size_t face = 0; face < has_limit.size(); ++face) has_limit[face] = surface.has_limit(int(face));
+  const Numbering numbering =
+      number_vertices(refiner->GetLevel(0), level, cage.scheme == ControlMesh::Scheme::loop, !points.uvs.empty(),
+                      std::move(has_limit), mirrored_faces(cage));
+  Mesh mesh;
+  Evaluation evaluation(surface, numbering, mesh);
+  evaluation.run(threads);
+  if (mesh.quads.empty()) throw Refusal{"no face has a limit surface"};
+  evaluation.values().finish(points, threads);
+  return mesh;
+}
+
+void check_level(const ControlMesh& cage, int level) {
+  if (level < 0 || level > finest_level)
+    throw InputError(fmt::format("subdivision level is {}, expected 0 to {}", level, finest_level));
+  constexpr std::int64_t most = std::int64_t(1) << 31;
+  if (const std::int64_t quads = quads_at_level(cage, level); quads > most)
+    throw InputError(fmt::format("{} at subdivision level {} has {} quads, expected at most {}",
+                                 cage.name.empty() ? "mesh" : cage.name, level, quads, most),
+                     "choose a lower level");
+}
+
+}  // namespace
+
+Mesh subdivide(const ControlMesh& cage, int level, int threads) {
+  check_level(cage, level);
+  try {
+    Mesh mesh;
+    std::optional<std::string> refused;
+    try {
+      mesh = refine(cage, level, threads);
+    } catch (const Refusal& refusal) {
+      refused = refusal.reason;
+    }
+    if (refused) mesh = unrefined_mesh(cage);
+    mesh.name = cage.name;
+    mesh.metres_per_uv = cage.metres_per_uv;
+    mesh.warnings.insert(mesh.warnings.begin(), cage.warnings.begin(), cage.warnings.end());
+    if (refused)
+      mesh.warnings.push_back(
+          fmt::format("{}: OpenSubdiv refuses this mesh, rendered unrefined from its cage: {}", cage.name, *refused));
+    return mesh;
+  } catch (const std::bad_alloc&) {
+    throw OperationError(fmt::format("out of memory while subdividing {} to level {} ({} quads)", cage.name, level,
+                                     quads_at_level(cage, level)));
+  }
+}
+
+std::int64_t quads_at_level(const ControlMesh& cage, int level) {
+  std::int64_t quads = 0;
+  for (const int size : cage.face_sizes)
+    quads += quads_of_face(size, 1 << level, cage.scheme == ControlMesh::Scheme::loop);
+  return quads;
+}
+
+int automatic_level(const ControlMesh& cage, const std::function<float(const Vec3&)>& pixel_size, float pixels,
+                    std::int64_t most_quads) {
+  float longest = 0;
+  size_t at = 0;
+  for (const int size : cage.face_sizes) {
+    for (int i = 0; i < size; ++i) {
+      const Vec3& a = cage.positions[size_t(cage.position_indices[at + size_t(i)])];
+      const Vec3& b = cage.positions[size_t(cage.position_indices[at + size_t((i + 1) % size)])];
+      const float pixel = pixel_size((a + b) * 0.5f);
+      if (pixel > 0 && std::isfinite(pixel)) longest = std::max(longest, length(b - a) / pixel);
+    }
+    at += size_t(size);
+  }
+  int level = 0;
+  while (level < finest_level && longest > pixels && quads_at_level(cage, level + 1) <= most_quads) {
+    longest *= 0.5f;
+    ++level;
+  }
+  return level;
+}
+
+}  // namespace sateen

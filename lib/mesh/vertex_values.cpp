@@ -1,0 +1,122 @@
+#include "mesh/vertex_values.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace sateen {
+
+namespace {
+constexpr float unset = std::numeric_limits<float>::quiet_NaN();
+const Vec3 zero(0, 0, 0);
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+}  // namespace
+
+VertexValues::VertexValues(Mesh& mesh, std::uint32_t vertices) : mesh_(mesh), warps_(vertices, 0) {
+  mesh_.positions.reserve(size_t(vertices) + 1);
+  mesh_.positions.resize(vertices, Vec3(unset, unset, unset));
+  mesh_.normals.resize(vertices, zero);
+  mesh_.dpdu.resize(vertices, zero);
+  mesh_.dpdv.resize(vertices, zero);
+  mesh_.uvs.resize(vertices, Vec2(0, 0));
+}
+
+void VertexValues::set(std::uint32_t vertex, const SurfaceSample& s) {
+  mesh_.positions[vertex] = s.position;
+  mesh_.normals[vertex] = s.normal;
+  mesh_.dpdu[vertex] = s.dpdu;
+  mesh_.dpdv[vertex] = s.dpdv;
+  mesh_.uvs[vertex] = s.uv;
+  warps_[vertex] = 1;
+}
+
+void VertexValues::add(std::uint32_t vertex, const SurfaceSample& s) {
+  if (std::isnan(mesh_.positions[vertex].x)) {
+    mesh_.positions[vertex] = s.position;
+    mesh_.uvs[vertex] = s.uv;
+  }
+  mesh_.normals[vertex] += s.normal;
+  if (s.dpdu == zero || !is_finite(s.dpdu) || !is_finite(s.dpdv)) return;
+  mesh_.dpdu[vertex] += s.dpdu;
+  mesh_.dpdv[vertex] += s.dpdv;
+  ++warps_[vertex];
+}
+
+void VertexValues::mend_normals() {
+  // Where no face has a tangent plane, the pieces around the vertex still have areas.
+  std::vector<std::uint32_t> bad;
+  for (std::uint32_t i = 0; i < mesh_.normals.size(); ++i) {
+    constexpr float cancelled = 1e-3f;
+    if (!(dot(mesh_.normals[i], mesh_.normals[i]) > cancelled * cancelled)) bad.push_back(i);
+  }
+  if (bad.empty()) return;
+  std::vector<bool> is_bad(mesh_.normals.size(), false);
+  for (const std::uint32_t i : bad) {
+    is_bad[i] = true;
+    mesh_.normals[i] = zero;
+  }
+  for (const std::array<std::uint32_t, 4>& q : mesh_.quads) {
+    if (!is_bad[q[0]] && !is_bad[q[1]] && !is_bad[q[2]] && !is_bad[q[3]]) continue;
+    const Vec3 area = safe_unit(cross(mesh_.positions[q[2]] - mesh_.positions[q[0]],
+                                      mesh_.positions[q[3]] - mesh_.positions[q[1]]));
+    for (size_t k = 0; k < (q[2] == q[3] ? 3u : 4u); ++k)
+      if (is_bad[q[k]]) mesh_.normals[q[k]] += area;
+  }
+  int made_up = 0;
+  for (const std::uint32_t i : bad) {
+    if (dot(mesh_.normals[i], mesh_.normals[i]) > 1e-6f) continue;
+    mesh_.normals[i] = Vec3(0, 1, 0);
+    ++made_up;
+  }
+  if (made_up) mesh_.warnings.push_back(fmt::format("{} vertices have no normal and were given +Y", made_up));
+}
+
+void VertexValues::finish(const ControlPoints& points, int threads) {
+  mend_normals();
+  constexpr size_t block = 1 << 16;
+  const size_t vertices = mesh_.positions.size();
+  const size_t blocks = (vertices + block - 1) / block;
+  struct Found {
+    Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+    std::int64_t made_up = 0;
+    bool finite = true;
+  };
+  std::vector<Found> found(blocks);
+  const float per_uv = points.scale / points.uv_scale;
+  parallel_for(int(blocks), threads, [&](int b) {
+    Found& f = found[size_t(b)];
+    for (size_t i = size_t(b) * block; i < std::min(vertices, size_t(b + 1) * block); ++i) {
+      const Vec3 p = mesh_.positions[i] * points.scale + points.centre;
+      mesh_.positions[i] = p;
+      f.finite = f.finite && is_finite(p);
+      for (int k = 0; k < 3; ++k) {
+        f.low[k] = std::min(f.low[k], p[k]);
+        f.high[k] = std::max(f.high[k], p[k]);
+      }
+      const Vec3 n = safe_unit(mesh_.normals[i]);
+      mesh_.normals[i] = n;
+      const float scale = per_uv / float(std::max<std::uint16_t>(warps_[i], 1));
+      mesh_.dpdu[i] *= scale;
+      mesh_.dpdv[i] *= scale;
+      f.made_up += settle_warp(n, mesh_.dpdu[i], mesh_.dpdv[i]);
+      mesh_.uvs[i] = mesh_.uvs[i] * points.uv_scale + points.uv_centre;
+    }
+  });
+  Found all;
+  for (const Found& f : found) {
+    for (int k = 0; k < 3; ++k) {
+      all.low[k] = std::min(all.low[k], f.low[k]);
+      all.high[k] = std::max(all.high[k], f.high[k]);
+    }
+    all.made_up += f.made_up;
+    all.finite = all.finite && f.finite;
+  }
+  if (!all.finite) throw Refusal{"a limit position is not finite"};
+  mesh_.bounds_min = all.low;
+  mesh_.bounds_max = all.high;
+  mesh_.fallback_warps = all.made_up;
+}
+
+}  // namespace sateen
