@@ -1,0 +1,50 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fabric/threads.h"
+#include "math/vector.h"
+
+namespace sateen {
+
+/// F of one look tabulated as a density of directions (cloth-model.md section 6), for sampling and as a cheap stand-in
+/// for F. A slice of directions for every view node, laid out in the warp's coordinates theta = asin(w.x),
+/// phi = atan2(w.y, w.z), where the lobes run along the grid; inside a cell uniform in theta and phi.
+///
+/// Three things make a small table enough, all measured (docs/numbers.md):
+/// - view nodes lie in s = (theta_r + psi_r)/pi with psi_r = atan2(w.x, w.z), and in phi_r crowded towards the horizon:
+///   Q turns with psi_r, the lobes with theta_r, and s resolves both;
+/// - a slice is turned about by theta_r - theta_node before use, so that the lobes of neighbouring views lie on each other;
+/// - a look that is its own mirror image in x or in y needs half the views in that axis.
+struct DirectionTable {
+  static constexpr int theta_cells = 48, phi_cells = 24, cells = theta_cells * phi_cells;
+
+  bool mirror_x = false, mirror_y = false;  ///< tabulated for w.x >= 0 or w.y >= 0 alone
+  int s_nodes = 0, phi_nodes = 0;
+  std::vector<float> node_theta;           ///< theta of view node [s][phi]
+  std::vector<std::uint32_t> cumulative;   ///< [s][phi][cells + 1], 2^32 scale; the last entry, 2^32, is stored as 0
+};
+
+/// The four slices around a view with their shares, and the turn of each.
+struct TableView {
+  const std::uint32_t* slice[4];
+  float share[4];       ///< sum to 1
+  float turn[4];        ///< theta of the view minus theta of the node [radians]
+  float flip_x = 1, flip_y = 1;
+};
+
+/// Tabulates S_0 + S_1 + a_0 V_0 + a_1 V_1 with the volume colours' means a. Deterministic.
+DirectionTable tabulate_directions(const Threads<float>& threads, float volume_warp, float volume_weft,
+                                   bool mirror_x, bool mirror_y, int threads_used = 1);
+
+/// For a unit wo with wo.z > 0.
+TableView prepare_table(const DirectionTable& table, const Vec3& wo);
+
+/// Solid-angle density [1/sr] of `sample_table`; 0 below the horizon.
+float table_pdf(const TableView& view, const Vec3& wi);
+
+/// u_view chooses the slice, u_theta and u_phi the direction; all in [0, 1) with up to 32 bits.
+Vec3 sample_table(const TableView& view, double u_view, double u_theta, double u_phi);
+
+}  // namespace sateen

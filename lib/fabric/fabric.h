@@ -1,0 +1,86 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "fabric/direction_table.h"
+#include "fabric/talk_sampler.h"
+#include "fabric/threads.h"
+#include "look/look.h"
+
+namespace sateen {
+
+/// From a look's colour (with its space) to the working space.
+using ToWorking = std::function<Color(const Color& value, const std::string& space)>;
+
+/// A look compiled for rendering: radians, working-space colour, tables. Immutable.
+struct Fabric {
+  Threads<float> threads;
+  std::array<Color, 2> A;  ///< volume colours of warp and weft, working space; solved where the look gives `color`
+  DirectionTable table;
+  TalkTangents talk;
+  float warp_angle = 0;    ///< [radians]
+  float gap = 0;           ///< share of the cloth's area that no thread covers
+  std::string name;
+};
+
+/// Ways to draw a direction from the fabric.
+enum class FabricSampler { uniform, talk, table };
+
+/// What one pair of directions gives. `f_cos` is F of cloth-model.md section 3: the integrand with its cosine inside [1/sr].
+struct BsdfValue {
+  Color f_cos{0, 0, 0};
+  float pdf = 0;  ///< of the sampler asked for, solid angle [1/sr]
+};
+
+/// View-only terms of one hit, cloth frame, shared by every light direction. Large: keep one a thread, reuse it.
+struct FabricView {
+  const Fabric* fabric = nullptr;
+  Vec3 wo{0, 0, 1};
+  ThreadView<float> threads;
+  TableView table;
+  TalkView talk;
+};
+
+/// Parts of a Fabric that are not always wanted.
+struct FabricParts {
+  bool table = true;  ///< the direction table: most of the compile time
+  int threads = 1;    ///< for the table
+};
+
+/// Compiles a look. InputError where a `color` cannot be reached: the message gives what is reachable.
+Fabric compile_fabric(const Look& look, const ToWorking& to_working, const FabricParts& parts = {});
+
+/// The look's own colours: no conversion whatever the space says (lobe values, tests).
+Color same_space(const Color& value, const std::string& space);
+
+/// `wo`: unit, cloth frame, wo.z > 0. `sampler`: prepares what that sampler needs.
+void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view);
+
+Color evaluate(const FabricView& view, const Vec3& wi);
+ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi);
+Color combine_parts(const Fabric& fabric, const ThreadSums<float>& parts);
+float pdf(const FabricView& view, FabricSampler sampler, const Vec3& wi);
+BsdfValue evaluate(const FabricView& view, FabricSampler sampler, const Vec3& wi);
+
+/// Numbers that `sample` wants, all in [0, 1).
+struct FabricRandom {
+  double choice = 0;                  ///< table: view slice; talk: unused
+  std::array<double, 2> thread{0, 0}; ///< talk: tangent and lobe
+  std::array<double, 2> direction{0, 0};
+};
+
+/// A direction drawn from `sampler`; nullopt where it falls below the cloth (the talk's sampler alone).
+std::optional<Vec3> sample(const FabricView& view, FabricSampler sampler, const FabricRandom& u);
+
+/// Reflectance for light from everywhere at a view: R = surface + A_warp volume[0] + A_weft volume[1], by midpoint
+/// quadrature in theta and phi (192 x 96 points: error below 1e-3 for gamma_s >= 2 degrees).
+struct Albedo {
+  float surface = 0;
+  std::array<float, 2> volume{0, 0};
+};
+Albedo albedo(const Threads<float>& threads, const Vec3& wo);
+Color albedo_color(const Fabric& fabric, const Vec3& wo);
+
+}  // namespace sateen

@@ -1,0 +1,110 @@
+#pragma once
+#include <cmath>
+#include <cstddef>
+
+#if defined(__AVX2__) && defined(__FMA__)
+#include <immintrin.h>
+#define SATEEN_AVX2 1
+#endif
+
+namespace sateen {
+
+/// Eight floats that are computed side by side. With AVX2 and FMA one register; elsewhere a plain array with the same
+/// bits (std::fma is exact on every machine). Division and square root are the correctly rounded ones on purpose:
+/// the processors' reciprocal estimates differ between makers.
+struct Lanes {
+  static constexpr int width = 8;
+#ifdef SATEEN_AVX2
+  __m256 v;
+  Lanes() = default;
+  Lanes(__m256 x) : v(x) {}
+  Lanes(float x) : v(_mm256_set1_ps(x)) {}
+  static Lanes load(const float* p) { return _mm256_loadu_ps(p); }
+  void store(float* p) const { _mm256_storeu_ps(p, v); }
+#else
+  float v[8];
+  Lanes() = default;
+  Lanes(float x) {
+    for (float& e : v) e = x;
+  }
+  static Lanes load(const float* p) {
+    Lanes r;
+    for (int i = 0; i < 8; ++i) r.v[i] = p[i];
+    return r;
+  }
+  void store(float* p) const {
+    for (int i = 0; i < 8; ++i) p[i] = v[i];
+  }
+#endif
+};
+
+#ifdef SATEEN_AVX2
+inline Lanes operator+(Lanes a, Lanes b) { return _mm256_add_ps(a.v, b.v); }
+inline Lanes operator-(Lanes a, Lanes b) { return _mm256_sub_ps(a.v, b.v); }
+inline Lanes operator*(Lanes a, Lanes b) { return _mm256_mul_ps(a.v, b.v); }
+inline Lanes operator/(Lanes a, Lanes b) { return _mm256_div_ps(a.v, b.v); }
+inline Lanes min(Lanes a, Lanes b) { return _mm256_min_ps(a.v, b.v); }
+inline Lanes max(Lanes a, Lanes b) { return _mm256_max_ps(a.v, b.v); }
+inline Lanes sqrt(Lanes a) { return _mm256_sqrt_ps(a.v); }
+inline Lanes abs(Lanes a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
+inline Lanes fma(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }    ///< a b + c
+inline Lanes fnma(Lanes a, Lanes b, Lanes c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); }  ///< c - a b
+/// Lane by lane: a < b ? yes : no.
+inline Lanes select_less(Lanes a, Lanes b, Lanes yes, Lanes no) {
+  return _mm256_blendv_ps(no.v, yes.v, _mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ));
+}
+/// 2^n for whole n in [-126, 127].
+inline Lanes exp2_whole(Lanes n) {
+  const __m256i i = _mm256_add_epi32(_mm256_cvtps_epi32(n.v), _mm256_set1_epi32(127));
+  return _mm256_castsi256_ps(_mm256_slli_epi32(i, 23));
+}
+inline Lanes round_nearest(Lanes a) {
+  return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+/// Sum of the lanes in a fixed order.
+inline float sum(Lanes a) {
+  const __m128 half = _mm_add_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+  const __m128 pair = _mm_add_ps(half, _mm_movehl_ps(half, half));
+  return _mm_cvtss_f32(_mm_add_ss(pair, _mm_shuffle_ps(pair, pair, 1)));
+}
+#else
+template <class Op>
+inline Lanes each(Op op) {
+  Lanes r;
+  for (int i = 0; i < 8; ++i) r.v[i] = op(i);
+  return r;
+}
+inline Lanes operator+(Lanes a, Lanes b) { return each([&](int i) { return a.v[i] + b.v[i]; }); }
+inline Lanes operator-(Lanes a, Lanes b) { return each([&](int i) { return a.v[i] - b.v[i]; }); }
+inline Lanes operator*(Lanes a, Lanes b) { return each([&](int i) { return a.v[i] * b.v[i]; }); }
+inline Lanes operator/(Lanes a, Lanes b) { return each([&](int i) { return a.v[i] / b.v[i]; }); }
+inline Lanes min(Lanes a, Lanes b) { return each([&](int i) { return a.v[i] < b.v[i] ? a.v[i] : b.v[i]; }); }
+inline Lanes max(Lanes a, Lanes b) { return each([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; }); }
+inline Lanes sqrt(Lanes a) { return each([&](int i) { return std::sqrt(a.v[i]); }); }
+inline Lanes abs(Lanes a) { return each([&](int i) { return std::fabs(a.v[i]); }); }
+inline Lanes fma(Lanes a, Lanes b, Lanes c) { return each([&](int i) { return std::fma(a.v[i], b.v[i], c.v[i]); }); }
+inline Lanes fnma(Lanes a, Lanes b, Lanes c) {
+  return each([&](int i) { return std::fma(-a.v[i], b.v[i], c.v[i]); });
+}
+inline Lanes select_less(Lanes a, Lanes b, Lanes yes, Lanes no) {
+  return each([&](int i) { return a.v[i] < b.v[i] ? yes.v[i] : no.v[i]; });
+}
+inline Lanes exp2_whole(Lanes n) { return each([&](int i) { return std::ldexp(1.0f, int(n.v[i])); }); }
+inline Lanes round_nearest(Lanes a) { return each([&](int i) { return std::nearbyint(a.v[i]); }); }
+inline float sum(Lanes a) {
+  const float h[4] = {a.v[0] + a.v[4], a.v[1] + a.v[5], a.v[2] + a.v[6], a.v[3] + a.v[7]};
+  return (h[0] + h[2]) + (h[1] + h[3]);
+}
+#endif
+
+// The same names on double, so that one template serves the renderer (Lanes) and its oracle in the tests (double).
+inline double min(double a, double b) { return a < b ? a : b; }
+inline double max(double a, double b) { return a > b ? a : b; }
+inline double sqrt(double a) { return std::sqrt(a); }
+inline double abs(double a) { return std::fabs(a); }
+inline double fma(double a, double b, double c) { return a * b + c; }
+inline double fnma(double a, double b, double c) { return c - a * b; }
+inline double select_less(double a, double b, double yes, double no) { return a < b ? yes : no; }
+inline double sum(double a) { return a; }
+
+}  // namespace sateen

@@ -1,0 +1,38 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+namespace sateen {
+
+/// What a random number is for. Every name owns an independent Owen-scrambled Sobol sequence in every pixel, so that
+/// adding a use never disturbs another. Candidates of resampling take consecutive points of theirs.
+enum class Dimension : std::uint32_t {
+  film,         ///< position in the pixel filter, 2D
+  table,        ///< theta and phi of a direction from the fabric's table, 2D
+  table_view,   ///< which of the four neighbouring views, 1D
+  talk,         ///< inclination and azimuth of the talk's lobes, 2D
+  talk_thread,  ///< thread tangent and lobe of the talk's sampler, 2D
+  uniform,      ///< direction in the hemisphere, 2D
+  environment,  ///< direction to the environment, 2D
+  choice,       ///< which candidate resampling keeps, 1D
+  gap,          ///< whether a ray passes between the threads, 1D
+  roulette,     ///< whether a path goes on, 1D
+  lens,         ///< reserved for depth of field, 2D
+  time          ///< reserved for motion blur, 1D
+};
+
+/// The sequence of one pixel in one independent replicate of the picture.
+struct Sequence {
+  std::uint32_t seed;  ///< from pixel_sequence
+};
+
+/// Hash of (seed, pixel, replicate, bounce): independent scramblings.
+Sequence pixel_sequence(std::uint32_t seed, int x, int y, int replicate, int bounce = 0);
+
+/// Point `index` of a one- or two-dimensional sequence: doubles in [0, 1) with 32 bits. Sobol's first two dimensions,
+/// indices shuffled and digits scrambled by hashed nested uniform scrambling (Burley, "Practical Hash-based Owen
+/// Scrambling", JCGT 9(4), 2020). Every block of 2^k consecutive points from a multiple of 2^k is a (0, k, 2)-net.
+double draw(Sequence sequence, Dimension dimension, std::uint32_t index);
+std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_t index);
+
+}  // namespace sateen
