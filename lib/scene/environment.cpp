@@ -20,13 +20,8 @@ constexpr double edge = 2e-7;
 // Above this, products of radiance with a BSDF or a reciprocal pdf could leave float's range.
 constexpr float brightest = 1e35f;
 
-// Share of the sphere between two rows' borders times 2, cos(t0) - cos(t1) without its cancellation.
-double row_weight(int y, int height) {
-  return 2 * std::sin(pi_d * (y + 0.5) / height) * std::sin(pi_d * 0.5 / height);
-}
-
 double texel_solid_angle(int y, int width, int height) {
-  return 2 * pi_d / width * row_weight(y, height);
+  return 2 * pi_d / width * environment_row_weight(y, height);
 }
 
 Color color_at(const Image& map, int x, int y) {
@@ -72,6 +67,11 @@ void fill_pdfs(Environment& e) {
 }
 }  // namespace
 
+double environment_row_weight(int y, int height) {
+  // The difference of two cosines as a product, without its cancellation near the poles.
+  return 2 * std::sin(pi_d * (y + 0.5) / height) * std::sin(pi_d * 0.5 / height);
+}
+
 Environment build_environment(Image map, const EnvironmentOptions& options) {
   if (map.width < 1 || map.height < 1 || map.channels < 1)
     throw InputError(fmt::format("the environment map {} has no pixels", options.name));
@@ -100,7 +100,7 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
       row += weighted(c, weights);
       for (int i = 0; i < 3; ++i) row_rgb[i] += double(c[i]);
     }
-    const double share = row_weight(y, e.height) / (2.0 * e.width);
+    const double share = environment_row_weight(y, e.height) / (2.0 * e.width);
     mean += row * share;
     for (int i = 0; i < 3; ++i) mean_rgb[i] += row_rgb[i] * share;
   }
@@ -108,7 +108,7 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
 
   const auto build = [&](double subtracted) {
     return build_distribution(e.width, e.height, [&](int y, std::span<double> out) {
-      const double weight = row_weight(y, e.height);
+      const double weight = environment_row_weight(y, e.height);
       for (int x = 0; x < e.width; ++x) {
         const double l = weighted(e.texels[size_t(y) * size_t(e.width) + size_t(x)].radiance, weights);
         out[size_t(x)] = std::max(0.0, l - subtracted) * weight;

@@ -19,7 +19,7 @@ struct EnvironmentRepairs {
   Kind infinite;      ///< +Inf, or beyond 1e35 after exposure: made the map's largest finite value; -Inf made 0
   Kind negative;      ///< made 0, in the space of the file
   Kind out_of_gamut;  ///< became negative by conversion to the working space: made 0
-  Kind spike;         ///< suspicious, NOT changed: one channel stands alone, see find_spikes
+  Kind spike;         ///< suspicious, NOT changed: one channel above 100 times the other two and the map's mean
   bool any() const { return not_a_number.count || infinite.count || negative.count || out_of_gamut.count; }
 };
 
@@ -66,6 +66,9 @@ struct EnvironmentSample {
   Color radiance{0, 0, 0};
   float pdf = 0;  ///< solid angle [1/sr]; 0 when the map is black
 };
+
+/// cos(t0) - cos(t1) of a row's borders, exact to double: the rows of a map add up to 2.
+double environment_row_weight(int y, int height);
 
 /// Mends NaN, infinite and negative values of a map's first three channels in place, and looks for spikes.
 EnvironmentRepairs repair_radiance(Image& map);

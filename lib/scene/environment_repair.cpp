@@ -12,24 +12,30 @@ void count(EnvironmentRepairs::Kind& kind, int x, int y) {
   kind.first_y = y;
 }
 
-// A spike is a damaged number rather than a light: one channel this many times above the pixel's other two AND above
-// the same channel of all eight neighbours. A sun one texel wide is bright in all channels and is not one.
+// A spike is more likely a damaged number than a light: one channel this many times above the pixel's other two and
+// above the mean of the map. Lamps and suns are bright in at least two channels; a real laser would be reported too,
+// which is why a spike is named and left alone.
 constexpr float spike_ratio = 100;
 
-bool spike_at(const Image& map, int x, int y) {
-  if (map.channels < 3 || map.width < 3 || map.height < 3) return false;
+bool spike_at(const Image& map, int x, int y, float mean) {
   const float* p = map.at(x, y);
   const int c = p[0] >= p[1] && p[0] >= p[2] ? 0 : p[1] >= p[2] ? 1 : 2;
   const float limit = p[c] / spike_ratio;
-  // Below 1 a single saturated texel is more likely a star or noise than damage that anyone could see.
-  if (!(p[c] > 1) || p[(c + 1) % 3] > limit || p[(c + 2) % 3] > limit) return false;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int row = y + dy, column = (x + dx + map.width) % map.width;
-      if ((dx == 0 && dy == 0) || row < 0 || row >= map.height) continue;
-      if (map.at(column, row)[c] > limit) return false;
+  return p[(c + 1) % 3] < limit && p[(c + 2) % 3] < limit && mean < limit;
+}
+
+// Over the sphere and the three channels.
+float mean_of(const Image& map) {
+  double sum = 0;
+  for (int y = 0; y < map.height; ++y) {
+    double row = 0;
+    for (int x = 0; x < map.width; ++x) {
+      const float* p = map.at(x, y);
+      row += double(p[0]) + double(p[1]) + double(p[2]);
     }
-  return true;
+    sum += row / (3.0 * map.width) * environment_row_weight(y, map.height) / 2;
+  }
+  return float(sum);
 }
 }  // namespace
 
@@ -60,9 +66,12 @@ EnvironmentRepairs repair_radiance(Image& map) {
       if (infinite) count(repairs.infinite, x, y);
       if (negative) count(repairs.negative, x, y);
     }
-  for (int y = 0; y < map.height; ++y)
-    for (int x = 0; x < map.width; ++x)
-      if (spike_at(map, x, y)) count(repairs.spike, x, y);
+  if (colours == 3) {
+    const float mean = mean_of(map);
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x)
+        if (spike_at(map, x, y, mean)) count(repairs.spike, x, y);
+  }
   return repairs;
 }
 

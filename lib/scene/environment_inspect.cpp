@@ -1,0 +1,99 @@
+#include "scene/environment_inspect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace sateen {
+
+namespace {
+constexpr double pi_d = std::numbers::pi;
+
+double luminance(const Environment& e, size_t i) {
+  const Color& c = e.texels[i].radiance;
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) sum += double(c[k]) * double(e.luminance[k]);
+  return sum;
+}
+
+// Collects the region around texel `start` and marks it as taken.
+LightRegion grow(const Environment& e, size_t start, double threshold, double whole, std::vector<char>& taken) {
+  std::vector<size_t> open{start};
+  taken[start] = 1;
+  Vec3d sum(0, 0, 0);
+  double energy = 0, solid_angle = 0, peak = 0;
+  while (!open.empty()) {
+    const size_t i = open.back();
+    open.pop_back();
+    const int x = int(i % size_t(e.width)), y = int(i / size_t(e.width));
+    const double weight = environment_row_weight(y, e.height) * 2 * pi_d / e.width, l = luminance(e, i);
+    const double colatitude = pi_d * (y + 0.5) / e.height,
+                 longitude = 2 * pi_d * ((x + 0.5) / e.width + e.rotation_turns);
+    sum += Vec3d(-std::sin(longitude) * std::sin(colatitude), std::cos(colatitude),
+                 std::cos(longitude) * std::sin(colatitude)) *
+           (l * weight);
+    energy += l * weight;
+    solid_angle += weight;
+    peak = std::max(peak, l);
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (y + dy < 0 || y + dy >= e.height) continue;
+        const size_t j = size_t(y + dy) * size_t(e.width) + size_t((x + dx + e.width) % e.width);
+        if (taken[j] || luminance(e, j) <= threshold) continue;
+        taken[j] = 1;
+        open.push_back(j);
+      }
+  }
+  LightRegion region;
+  // A ring all around has no middle: any direction of it will do, and its share tells the rest.
+  const Vec3d middle = sum.length() > 1e-9 * energy ? sum / sum.length() : Vec3d(0, 1, 0);
+  region.direction = Vec3(float(middle.x), float(middle.y), float(middle.z));
+  region.azimuth_deg = float(std::atan2(middle.x, middle.z) * 180 / pi_d);
+  region.elevation_deg = float(std::asin(std::clamp(middle.y, -1.0, 1.0)) * 180 / pi_d);
+  region.solid_angle = float(solid_angle);
+  region.share = float(energy / whole);
+  region.peak = float(peak);
+  return region;
+}
+}  // namespace
+
+EnvironmentReport inspect_environment(const Environment& e) {
+  EnvironmentReport report;
+  report.width = e.width;
+  report.height = e.height;
+  report.repairs = e.repairs;
+  report.metered_ev = metered_exposure_ev(e);
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0, whole = 0;
+  std::vector<double> lit;
+  for (int y = 0; y < e.height; ++y) {
+    double row = 0;
+    for (int x = 0; x < e.width; ++x) {
+      const double l = luminance(e, size_t(y) * size_t(e.width) + size_t(x));
+      smallest = std::min(smallest, l);
+      largest = std::max(largest, l);
+      if (l > 0) lit.push_back(l);
+      row += l;
+    }
+    whole += row * environment_row_weight(y, e.height) * 2 * pi_d / e.width;
+  }
+  const double mean = whole / (4 * pi_d);
+  report.smallest = float(smallest);
+  report.largest = float(largest);
+  report.mean = float(mean);
+  if (!(mean > 0)) return report;
+  report.largest_over_mean = float(largest / mean);
+  const auto dim = lit.begin() + std::ptrdiff_t(lit.size() / 100);
+  std::nth_element(lit.begin(), dim, lit.end());
+  report.stops = float(std::log2(largest / *dim));
+  const double threshold = mean * (largest > 3 * mean ? 3 : 1.2);
+  std::vector<char> taken(e.texels.size());
+  for (size_t i = 0; i < e.texels.size(); ++i)
+    if (!taken[i] && luminance(e, i) > threshold) report.regions.push_back(grow(e, i, threshold, whole, taken));
+  std::stable_sort(report.regions.begin(), report.regions.end(),
+                   [](const LightRegion& a, const LightRegion& b) { return a.share > b.share; });
+  if (report.regions.size() > 5) report.regions.resize(5);
+  return report;
+}
+
+}  // namespace sateen
