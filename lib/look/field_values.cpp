@@ -170,7 +170,10 @@ struct MemberText {
   }
   std::string operator()(const std::vector<float>& numbers) const {
     std::string text = "[";
-    for (size_t i = 0; i < numbers.size(); ++i) text += (i ? ", " : "") + (*this)(numbers[i]);
+    for (size_t i = 0; i < numbers.size(); ++i) {
+      if (i) text += ", ";
+      text += (*this)(numbers[i]);
+    }
     return text + "]";
   }
 };

@@ -91,7 +91,6 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& error) override {
     progress_.too_large = error.id == 406;
-    progress_.consumed = consumed_;
     const SyntaxFault fault = explain_syntax(document_.text, progress_);
     return refuse(fault.begin, fault.end, fault.message, fault.help);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace sateen {
 
@@ -66,32 +67,65 @@ size_t line_of(std::string_view text, size_t at) {
   return size_t(std::count(text.begin(), text.begin() + long(at), '\n')) + 1;
 }
 
-SyntaxFault explain_text(std::string_view text, size_t begin, size_t consumed) {
-  // The reader stops at the byte that it cannot accept.
-  const size_t fault = std::max(consumed, begin + 1) - 1;
-  for (size_t at = begin + 1; at < text.size() && at <= fault; ++at) {
-    if (text[at] != '\\') continue;
-    const size_t end = std::min(text.size(), at + (at + 1 < text.size() && text[at + 1] == 'u' ? 6 : 2));
-    if (fault > at && fault < end)
-      return {at, std::max(fault + 1, at + 2), "found a backslash that begins no escape",
-              "write \\\\ for a backslash; the others are \\\" \\/ \\b \\f \\n \\r \\t and \\u with four hex digits"};
-    // A high surrogate wants its other half at once, and the low half cannot stand alone.
-    if (end - at == 6 && fault >= end - 1 && fault < end + 6 && (text[at + 2] == 'd' || text[at + 2] == 'D') &&
-        text[at + 3] != '7')
-      return {at, end, fmt::format("{} is half a character, expected a pair", text.substr(at, 6)), {}};
-    ++at;
+// Bytes of the UTF-8 character at `at`, or 0 where there is none (RFC 3629: no overlong forms, no surrogates).
+size_t character_length(std::string_view text, size_t at) {
+  const auto byte = [&](size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const size_t length = first >= 0xc2 && first < 0xe0   ? 2
+                        : (first & 0xf0) == 0xe0        ? 3
+                        : first >= 0xf0 && first < 0xf5 ? 4
+                                                        : 0;
+  for (size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const unsigned second = byte(1);
+  const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
+                     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
+  return wrong ? 0 : length;
+}
+
+// The code unit of the \uXXXX at `at`, or -1.
+int code_unit(std::string_view text, size_t at) {
+  if (at + 6 > text.size() || text[at] != '\\' || text[at + 1] != 'u') return -1;
+  unsigned unit = 0;  // unsigned, as a sign is no hex digit
+  const auto result = std::from_chars(text.data() + at + 2, text.data() + at + 6, unit, 16);
+  return result.ptr == text.data() + at + 6 ? int(unit) : -1;
+}
+
+// The first fault of the text in quotes at `begin`.
+SyntaxFault explain_text(std::string_view text, size_t begin) {
+  size_t at = begin + 1;
+  while (at < text.size() && text[at] != '"' && text[at] != '\n' && text[at] != '\r') {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (byte == '\t') return {at, at + 1, "found a tab inside a text, expected \\t", {}};
+    if (byte < 0x20)
+      return {at, at + 1, fmt::format("found the control character 0x{:02x} inside a text", byte),
+              fmt::format("write \\u{:04x}", byte)};
+    size_t length = character_length(text, at);
+    if (length == 0)
+      return {at, at + 1, fmt::format("found byte 0x{:02x}, which is not valid UTF-8", byte),
+              "save the file as UTF-8"};
+    if (byte == '\\') {
+      length = 2;
+      const int unit = code_unit(text, at);
+      const bool known =
+          at + 1 < text.size() && std::string_view("\"\\/bfnrt").find(text[at + 1]) != std::string_view::npos;
+      if (unit < 0 && !known)
+        return {
+            at, at + 2, "found a backslash that begins no escape",
+            "write \\\\ for a backslash; the others are \\\" \\/ \\b \\f \\n \\r \\t and \\u with four hex digits"};
+      if (unit >= 0) {
+        length = 6;
+        const int next = code_unit(text, at + 6);
+        const bool pair = unit >= 0xd800 && unit < 0xdc00 && next >= 0xdc00 && next < 0xe000;
+        if (unit >= 0xd800 && unit < 0xe000 && !pair)
+          return {at, at + 6, fmt::format("{} is half a character, expected a pair", text.substr(at, 6)), {}};
+        if (pair) length = 12;
+      }
+    }
+    at += length;
   }
-  const unsigned char byte = fault < text.size() ? static_cast<unsigned char>(text[fault]) : 0;
-  if (fault >= text.size() || byte == '\n' || byte == '\r' || token_end(text, begin) <= begin + 1)
-    return {begin, token_end(text, begin), "the text is not closed, expected \" before the end of the line", {}};
-  if (byte == '\t') return {fault, fault + 1, "found a tab inside a text, expected \\t", {}};
-  if (byte < 0x20)
-    return {fault, fault + 1, fmt::format("found the control character 0x{:02x} inside a text", byte),
-            fmt::format("write \\u{:04x}", byte)};
-  if (token_end(text, begin) == std::min(text.find_first_of("\r\n", begin), text.size()) && byte == '"')
-    return {begin, token_end(text, begin), "the text is not closed, expected \" before the end of the line", {}};
-  return {fault, fault + 1, fmt::format("found byte 0x{:02x}, which is not valid UTF-8", byte),
-          "save the file as UTF-8"};
+  return {begin, at, "the text is not closed, expected \" before the end of the line", {}};
 }
 
 SyntaxFault explain_word(std::string_view text, size_t begin, size_t end, const std::string& expected) {
@@ -156,7 +190,7 @@ SyntaxFault explain_syntax(std::string_view text, const JsonProgress& progress) 
     return {comma, comma + 1, fmt::format("found a comma before {}, expected none", c), "remove the comma"};
   if (progress.too_large)
     return {at, end, fmt::format("found {}, expected a finite number", shown(text, at, end)), {}};
-  if (c == '"' && text_fits) return explain_text(text, at, progress.consumed);
+  if (c == '"' && text_fits) return explain_text(text, at);
   // 01, 1.2.3 and 0x10 begin with a number that was understood.
   if (progress.last == Last::value && at == progress.token_end && is_word(c) && is_word(text[at - 1]))
     return explain_word(text, progress.token_begin, end, "a value");

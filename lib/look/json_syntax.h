@@ -11,7 +11,6 @@ struct JsonProgress {
   enum class Last { nothing, opened, key, value };
   Last last = Last::nothing;
   size_t token_begin = 0, token_end = 0;  ///< the last key, value or bracket that was understood, in bytes
-  size_t consumed = 0;                    ///< bytes read, the one at fault included
   bool too_large = false;                 ///< a number beyond the range of double
   std::vector<size_t> open;               ///< places of the brackets not yet closed
 };

@@ -25,7 +25,13 @@ std::string_view trimmed(std::string_view text) {
 // People type .5 and +5, which JSON does not know.
 std::string with_json_numbers(std::string_view typed) {
   std::string json;
+  bool quoted = false;
   for (const char c : typed) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) {
+      json += c;
+      continue;
+    }
     const bool after_digit = !json.empty() && std::isdigit(static_cast<unsigned char>(json.back()));
     const bool after_exponent = !json.empty() && (json.back() == 'e' || json.back() == 'E');
     if (c == '+' && !after_digit && !after_exponent) continue;
@@ -41,7 +47,7 @@ JsonValue typed_value(const Field& field, std::string_view typed) {
       field.kind == FieldKind::text || field.kind == FieldKind::name || field.kind == FieldKind::look_name;
   std::string json(trimmed(typed));
   if (is_text && !json.starts_with('"')) json = json_quote(typed);
-  if (!is_text && json.find('"') == std::string::npos) json = with_json_numbers(json);
+  if (!is_text) json = with_json_numbers(json);
   if (!is_text && field.kind != FieldKind::number && !json.starts_with('[') && !json.starts_with('{'))
     json = fmt::format("[{}]", json);
   try {
@@ -134,9 +140,9 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
     }
     if (field->kind == FieldKind::look_name && !changed.back.empty()) {
       try {
-        const auto path = find_look_beside(changed.back, changed.file);
+        const auto found = find_look_beside(changed.back, changed.file);
         if (changed.back.find('/') != std::string::npos)
-          changed.back = std::filesystem::absolute(path).lexically_normal().string();
+          changed.back = std::filesystem::absolute(found).lexically_normal().string();
       } catch (const InputError& error) {
         complain(text, fmt::format("there is no look {}", shown_name(changed.back)), error.diagnostics.front().help);
       }
