@@ -1,10 +1,12 @@
 #include "mesh/subdivide.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <limits>
 #include <new>
 #include <optional>
+#include <stdexcept>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -39,6 +41,13 @@ std::vector<bool> mirrored_faces(const ControlMesh& cage) {
   return mirrored;
 }
 
+// Where a UV seam ends inside the surface (a dart), smooth UVs fold over or collapse: their derivatives say nothing.
+// Dropped here, they are made up from the pieces around the vertex.
+void drop_folded_warp(SurfaceSample& sample, bool mirrored) {
+  if ((dot(cross(sample.dpdu, sample.dpdv), sample.normal) < 0) != mirrored)
+    sample.dpdu = sample.dpdv = Vec3(0, 0, 0);
+}
+
 struct BorderSample { std::uint32_t vertex; SurfaceSample sample; };
 
 /// What one run of faces found at its shared vertices.
@@ -49,8 +58,8 @@ struct Chunk {
 
 class Evaluation {
  public:
-  Evaluation(const LimitSurface& surface, const Numbering& numbering, Mesh& mesh)
-      : surface_(surface), numbering_(numbering), mesh_(mesh), values_(mesh, numbering.vertices) {
+  Evaluation(const LimitSurface& surface, const Numbering& numbering, const std::vector<bool>& mirrored, Mesh& mesh)
+      : surface_(surface), numbering_(numbering), mirrored_(mirrored), mesh_(mesh), values_(mesh, numbering.vertices) {
     mesh_.quads.resize(numbering.face_quad.back());
   }
   void run(int threads);
@@ -61,6 +70,7 @@ class Evaluation {
 
   const LimitSurface& surface_;
   const Numbering& numbering_;
+  const std::vector<bool>& mirrored_;
   Mesh& mesh_;
   VertexValues values_;
 };
@@ -76,7 +86,8 @@ void Evaluation::run_faces(size_t begin, size_t end, Chunk& chunk) {
       face_points.set_face(numbering_, face);
       for (size_t i = 0; i < face_points.points.size(); ++i) {
         const FacePoint& point = face_points.points[i];
-        const SurfaceSample sample = patch.evaluate(point.st, point.towards);
+        SurfaceSample sample = patch.evaluate(point.st, point.towards);
+        drop_folded_warp(sample, mirrored_[face]);
         if (i < face_points.border)
           chunk.border.push_back({point.vertex, sample});
         else
@@ -86,6 +97,8 @@ void Evaluation::run_faces(size_t begin, size_t end, Chunk& chunk) {
     }
   } catch (const Refusal& refusal) {
     chunk.refusal = refusal;
+  } catch (const std::length_error& error) {
+    chunk.refusal = Refusal{error.what()};
   }
 }
 
@@ -118,11 +131,12 @@ Mesh refine(const ControlMesh& cage, int level, int threads) {
   const LimitSurface surface(*refiner, points, level);
   std::vector<bool> has_limit(cage.face_sizes.size());
   for (size_t face = 0; face < has_limit.size(); ++face) has_limit[face] = surface.has_limit(int(face));
+  const std::vector<bool> mirrored = mirrored_faces(cage);
   const Numbering numbering =
       number_vertices(refiner->GetLevel(0), level, cage.scheme == ControlMesh::Scheme::loop, !points.uvs.empty(),
-                      std::move(has_limit), mirrored_faces(cage));
+                      std::move(has_limit), mirrored);
   Mesh mesh;
-  Evaluation evaluation(surface, numbering, mesh);
+  Evaluation evaluation(surface, numbering, mirrored, mesh);
   evaluation.run(threads);
   if (mesh.quads.empty()) throw Refusal{"no face has a limit surface"};
   evaluation.values().finish(points, threads);
@@ -152,6 +166,8 @@ Mesh subdivide(const ControlMesh& cage, int level, int threads) {
       refused = refusal.reason;
     }
     if (refused) mesh = unrefined_mesh(cage);
+    // What the refinement needed and gave back would otherwise stay with the process while it renders.
+    malloc_trim(0);
     mesh.name = cage.name;
     mesh.metres_per_uv = cage.metres_per_uv;
     mesh.warnings.insert(mesh.warnings.begin(), cage.warnings.begin(), cage.warnings.end());

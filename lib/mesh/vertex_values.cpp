@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <unordered_map>
 
 #include "base/parallel.h"
 
@@ -73,8 +74,45 @@ void VertexValues::mend_normals() {
   if (made_up) mesh_.warnings.push_back(fmt::format("{} vertices have no normal and were given +Y", made_up));
 }
 
+void VertexValues::mend_warps() {
+  // Mean of the pieces' derivatives at a vertex, weighted by their areas in UV: works where the limit's own vanish but
+  // the UVs around do not.
+  std::vector<bool> is_bad(mesh_.dpdu.size(), false);
+  bool any = false;
+  constexpr float parallel = 1e-2f;  // warp and weft within 0.6 degrees of one another
+  for (size_t i = 0; i < is_bad.size(); ++i) {
+    const Vec3 area = cross(safe_unit(mesh_.dpdu[i]), safe_unit(mesh_.dpdv[i]));
+    if (dot(area, area) > parallel * parallel) continue;
+    is_bad[i] = any = true;
+    mesh_.dpdu[i] = mesh_.dpdv[i] = zero;
+  }
+  if (!any) return;
+  std::unordered_map<std::uint32_t, double> areas;
+  for (const std::array<std::uint32_t, 4>& q : mesh_.quads) {
+    const size_t n = q[2] == q[3] ? 3 : 4;
+    for (size_t k = 0; k < n; ++k) {
+      const std::uint32_t v = q[k], next = q[(k + 1) % n], last = q[(k + n - 1) % n];
+      if (!is_bad[v]) continue;
+      const Vec3 ds = mesh_.positions[next] - mesh_.positions[v], dt = mesh_.positions[last] - mesh_.positions[v];
+      const Vec2 w = mesh_.uvs[next] - mesh_.uvs[v], x = mesh_.uvs[last] - mesh_.uvs[v];
+      const float det = w.x * x.y - x.x * w.y;
+      if (!(std::abs(det) > 1e-4f * w.length() * x.length())) continue;
+      const float sign = det < 0 ? -1.0f : 1.0f;
+      mesh_.dpdu[v] += (ds * x.y - dt * w.y) * sign;
+      mesh_.dpdv[v] += (dt * w.x - ds * x.x) * sign;
+      areas[v] += double(std::abs(det));
+    }
+  }
+  for (const auto& [v, area] : areas) {
+    mesh_.dpdu[v] /= float(area);
+    mesh_.dpdv[v] /= float(area);
+    warps_[v] = 1;
+  }
+}
+
 void VertexValues::finish(const ControlPoints& points, int threads) {
   mend_normals();
+  mend_warps();
   constexpr size_t block = 1 << 16;
   const size_t vertices = mesh_.positions.size();
   const size_t blocks = (vertices + block - 1) / block;

@@ -22,6 +22,7 @@ class VertexValues {
 
  private:
   void mend_normals();
+  void mend_warps();
 
   Mesh& mesh_;
   std::vector<std::uint16_t> warps_;  // samples that had a derivative
