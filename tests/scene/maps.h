@@ -1,0 +1,26 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace sateen_test {
+
+struct NamedMap {
+  std::string name;
+  sateen::Image image;
+};
+
+inline sateen::Image make_map(int width, int height, const std::function<sateen::Color(int, int)>& color) {
+  sateen::Image map(width, height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) map.at(x, y)[c] = color(x, y)[c];
+  return map;
+}
+
+/// The torture list of hard-cases.md that fits in memory: every map an artist, a broken exporter or a test may bring.
+std::vector<NamedMap> torture_maps();
+
+}  // namespace sateen_test
