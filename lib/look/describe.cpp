@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "base/files.h"
 #include "look/field_values.h"
 
@@ -102,7 +104,8 @@ std::string look_hash(const Look& look) {
   Hash hash;
   hash.add("look 1\n");
   for (const Field& field : fields()) {
-    const std::string value = canonical_text(look, field);
+    std::string value = canonical_text(look, field);
+    if (field.kind == FieldKind::look_name) value = std::filesystem::path(look.back).stem().string();
     if (field.appearance && !value.empty()) hash.add(field.path).add("=").add(value).add("\n");
   }
   return hash.hex();

@@ -88,17 +88,20 @@ std::string path_help(const std::string& path) {
 }  // namespace
 
 std::string key_help(const std::string& key, const std::string& family) {
-  std::vector<std::string> here;
-  bool elsewhere = false;
+  std::vector<std::string> here, elsewhere;
   for (const Field& field : fields()) {
     const bool same_level = family.empty() ? !field.family : field.path == family + "." + field.key;
-    if (same_level) here.push_back(field.key);
+    (same_level ? here : elsewhere).push_back(field.key);
     if (same_level && field.key == key + "_deg") return fmt::format("did you mean {}?", field.key);
-    elsewhere = elsewhere || (!same_level && field.key == key);
   }
   if (family.empty()) here.insert(here.end(), {"inherits", "warp", "weft"});
-  if (elsewhere && family.empty()) return "it belongs inside \"warp\" or \"weft\"";
-  if (elsewhere || (!family.empty() && key == "inherits")) return "it belongs at the top level";
+  if (!family.empty()) elsewhere.push_back("inherits");
+  const std::string level = family.empty() ? "inside \"warp\" or \"weft\"" : "at the top level";
+  if (std::find(elsewhere.begin(), elsewhere.end(), key) != elsewhere.end())
+    return fmt::format("it belongs {}", level);
+  if (nearest_name(key, here).empty())
+    if (const std::string near = nearest_name(key, elsewhere); !near.empty())
+      return fmt::format("did you mean {}, {}?", near, level);
   return suggestion(key, here);
 }
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t most_complaints = 1000;  // 20 are printed; a hostile file could hold millions
+constexpr size_t most_complaints = 1000;  // 20 are printed, the rest counted; a hostile file could hold millions
 constexpr size_t most_parents = 32;
 
 struct Layer {
@@ -50,7 +50,8 @@ class LayerReader {
     layer_.look.name = fs::path(document_.file).stem().string();
     layer_.files.insert(layer_.files.begin(), document_.file);
     pin_inherited_colors();
-    for (const JsonValue& item : root.items) read_top_level(item);
+    for (const JsonValue& item : root.items)
+      if (complaints_.size() < most_complaints) read_top_level(item);
     read_shorthands();
     if (complaints_.empty() && parent_complaints_.empty()) check();
     finish();
@@ -134,6 +135,7 @@ class LayerReader {
     if (family.kind != JsonValue::Kind::object)
       return complain(family.place, fmt::format("{} holds no fields, expected an object {{ ... }}", family.key), {});
     for (const JsonValue& item : family.items) {
+      if (complaints_.size() == most_complaints) break;
       const Field* field = find_field(family.key + "." + item.key);
       if (field)
         read_field(*field, item);
