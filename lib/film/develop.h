@@ -1,0 +1,20 @@
+#pragma once
+#include <vector>
+
+#include "film/film.h"
+#include "image/file.h"
+
+namespace sateen {
+
+/// Premultiplied RGBA of the picture, working space, scene-linear.
+Image develop_beauty(const Film& film);
+
+/// The layers of an EXR: beauty (half), then as the film holds them (float) direct, indirect, surface, volume,
+/// warp_surface, warp_volume, weft_surface, weft_volume, albedo, N, P, uv, warp, error (per channel, standard error),
+/// samples. Geometric layers are means over the samples that met cloth, 0 where none did.
+std::vector<ImageLayer> develop_layers(const Film& film);
+
+/// Beauty over a backdrop of one colour: what a display picture shows. `ground` in the working space.
+Image composite(const Image& beauty, const Color& ground);
+
+}  // namespace sateen

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "fabric/fabric.h"
+
+namespace sateen {
+
+/// Ways to estimate the light that the environment sends by way of the cloth. All converge to the same picture.
+enum class Strategy {
+  uniform,          ///< hemisphere, one shadow ray
+  talk,             ///< Wang et al. 2014, one shadow ray
+  table,            ///< the direction table, one shadow ray
+  environment,      ///< the map by its radiance, one shadow ray
+  mis,              ///< table and map, balance heuristic, two shadow rays
+  mis_compensated,  ///< table and compensated map, balance heuristic, two shadow rays
+  mis_talk,         ///< the talk's sampler and map, balance heuristic, two shadow rays
+  resampled         ///< candidates of table and compensated map, one kept, one shadow ray
+};
+
+const std::vector<std::string>& strategy_names();  ///< in the order of the enum, as on the command line
+Strategy strategy_from_name(const std::string& name);  ///< InputError with the nearest name
+std::string strategy_name(Strategy strategy);
+FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
+
+struct LightSettings {
+  Strategy strategy = Strategy::resampled;
+  int candidates = 8;  ///< of each kind, for resampling, 1 to 64
+  int bounces = 0;     ///< light that meets cloth again, 0 to 64
+};
+
+}  // namespace sateen

@@ -1,0 +1,130 @@
+#include "render/assemble.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <future>
+
+#include "base/files.h"
+#include "base/parallel.h"
+#include "look/describe.h"
+#include "look/read.h"
+#include "mesh/obj.h"
+#include "mesh/shapes.h"
+#include "mesh/subdivide.h"
+#include "scene/environment_file.h"
+
+namespace sateen {
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+template <class Values>
+void hash_values(Hash& hash, const Values& values) {
+  hash.add_bytes(values.data(), values.size() * sizeof(values[0]));
+}
+
+std::string hash_mesh(const ControlMesh& cage) {
+  Hash hash;
+  hash_values(hash, cage.positions);
+  hash_values(hash, cage.uvs);
+  hash_values(hash, cage.face_sizes);
+  hash_values(hash, cage.position_indices);
+  hash_values(hash, cage.uv_indices);
+  return hash.hex();
+}
+
+struct Cloth {
+  std::unique_ptr<const Mesh> mesh;
+  std::unique_ptr<const RayTracer> rays;
+  Camera camera;
+};
+
+Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
+  const double start = now();
+  const ControlMesh cage = is_built_in_shape(settings.mesh) ? built_in_shape(settings.mesh) : read_obj(settings.mesh);
+  report.mesh_hash = hash_mesh(cage);
+  report.cage_faces = std::int64_t(cage.face_sizes.size());
+  Cloth cloth;
+  // The cage encloses the surface closely enough to choose the level by; the framing is then made exact.
+  const Camera rough = frame_points(cage.positions, settings.camera, settings.width, settings.height);
+  report.level = settings.level >= 0
+                     ? settings.level
+                     : automatic_level(cage, [&](const Vec3& p) { return rough.pixel_size(p); });
+  auto mesh = std::make_unique<Mesh>(subdivide(cage, report.level, settings.threads));
+  report.triangles = mesh->triangles();
+  report.warnings.insert(report.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
+  if (mesh->fallback_warps > 0)
+    report.warnings.push_back(fmt::format("{}: {} of {} vertices have no usable UVs: their warp follows the object's X axis",
+                                          settings.mesh, mesh->fallback_warps, mesh->positions.size()));
+  cloth.camera = frame_points(mesh->positions, settings.camera, settings.width, settings.height);
+  cloth.mesh = std::move(mesh);
+  report.mesh_seconds = now() - start;
+  cloth.rays = std::make_unique<const RayTracer>(*cloth.mesh, settings.threads);
+  report.tracer_seconds = now() - start - report.mesh_seconds;
+  report.tracer_bytes = cloth.rays->memory_bytes();
+  return cloth;
+}
+
+std::string hash_environment(const Environment& environment) {
+  Hash hash;
+  // Every 61st texel: a prime stride meets every column of every row in turn, and a whole 16k map would cost seconds.
+  for (size_t i = 0; i < environment.texels.size(); i += 61) hash.add_bytes(&environment.texels[i].radiance, 12);
+  return hash.add(fmt::format("{}x{}", environment.width, environment.height)).hex();
+}
+
+}  // namespace
+
+Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report) {
+  Look look = read_look(settings.look, settings.look_overrides);
+  look.warp_angle_deg += settings.warp_angle_deg;
+  report.look = look;
+  report.look_hash = look_hash(look);
+
+  // Each part reports into fields of its own, the mesh alone into `warnings`.
+  std::future<Cloth> cloth = std::async(std::launch::async, [&] { return build_cloth(settings, report); });
+  std::future<Environment> environment = std::async(std::launch::async, [&] {
+    const double start = now();
+    EnvironmentFileOptions options;
+    options.color_space = settings.environment_space;
+    options.rotation_deg = settings.environment_rotation_deg;
+    options.exposure_ev = settings.environment_ev;
+    Environment map = read_environment(settings.environment, colors, options);
+    report.environment_seconds = now() - start;
+    return map;
+  });
+  Scene scene;
+  const double start = now();
+  const ToWorking to_working = [&](const Color& c, const std::string& space) { return colors.to_working(c, space); };
+  FabricParts parts;
+  parts.threads = settings.threads;
+  std::exception_ptr failure;
+  try {
+    scene.front = compile_fabric(look, to_working, parts);
+    if (!look.back.empty()) scene.back = compile_fabric(read_back(look), to_working, parts);
+  } catch (...) {
+    failure = std::current_exception();  // the other two still hold references to this frame
+  }
+  report.look_seconds = now() - start;
+  cloth.wait();
+  environment.wait();
+  if (failure) std::rethrow_exception(failure);
+
+  Cloth built = cloth.get();
+  scene.mesh = std::move(built.mesh);
+  scene.rays = std::move(built.rays);
+  scene.camera = built.camera;
+  scene.environment = environment.get();
+  scene.backdrop = settings.backdrop;
+  scene.backdrop_color = settings.backdrop_color;
+  scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
+  report.environment_hash = hash_environment(scene.environment);
+  report.metered_ev = metered_exposure_ev(scene.environment);
+  return scene;
+}
+
+}  // namespace sateen

@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "image/color.h"
+#include "scene/scene.h"
+
+namespace sateen {
+
+inline constexpr const char* default_look = "ivory_duchess_satin";
+inline constexpr const char* default_mesh = "drape";
+inline constexpr const char* default_environment = "studio_softboxes";
+
+/// A scene as a user asks for it: names, paths and human units, a default on everything.
+struct SceneSettings {
+  std::string look = default_look;
+  std::vector<std::string> look_overrides;  ///< "warp.gamma_s_deg=4"
+  std::string mesh = default_mesh;          ///< a built-in shape or the path of an OBJ
+  int level = -1;                           ///< subdivision, 0 to 6; -1: by pixel size
+  float warp_angle_deg = 0;                 ///< added to the look's own
+  std::string environment = default_environment;
+  std::string environment_space;            ///< colour space of the map; empty: as the file says
+  float environment_rotation_deg = 0;
+  float environment_ev = 0;
+  CameraSettings camera;
+  int width = 960, height = 540;
+  Backdrop backdrop = Backdrop::none;
+  Color backdrop_color{0, 0, 0};
+  int threads = 0;
+};
+
+/// What the assembly found out, for people and for the picture's metadata.
+struct SceneReport {
+  Look look;
+  std::string look_hash, mesh_hash, environment_hash;
+  std::int64_t cage_faces = 0, triangles = 0, tracer_bytes = 0;
+  int level = 0;
+  float metered_ev = 0;  ///< display exposure that the light asks for (scene/metering)
+  double look_seconds = 0, mesh_seconds = 0, environment_seconds = 0, tracer_seconds = 0;  ///< wall clock
+  std::vector<std::string> warnings;
+};
+
+/// Reads, compiles and joins everything that a picture needs. Look, mesh and map are worked on side by side.
+Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report);
+
+}  // namespace sateen

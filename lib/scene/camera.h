@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "math/frame.h"
+#include "mesh/mesh.h"
+#include "scene/ray_tracer.h"
+
+namespace sateen {
+
+/// A camera as people place it: around the object, by angles.
+struct CameraSettings {
+  float azimuth_deg = 0;      ///< 0 looks along -Z; positive walks to the right around the object
+  float elevation_deg = 12;   ///< above the horizon, -89 to 89
+  float fov_deg = 26;         ///< of the picture's longer side, 1 to 150
+  float margin = 0.06f;       ///< of the picture, kept free around the object
+  float zoom = 1;             ///< above 1 comes closer than the framing
+};
+
+/// Pinhole camera, compiled. Film coordinates: x from 0 (left) to width, y from 0 (top) to height, in pixels.
+struct Camera {
+  Vec3 position;
+  Vec3 right, up, forward;    ///< unit
+  float tan_x = 1, tan_y = 1; ///< half extents of the picture at distance 1
+  int width = 1, height = 1;
+
+  Ray ray(float film_x, float film_y) const;
+  float pixel_size(const Vec3& point) const;  ///< scene units at the point; not positive behind the camera
+};
+
+/// Places the camera so that all `points` (the object) stay within the margin, at the smallest distance.
+Camera frame_points(const std::vector<Vec3>& points, const CameraSettings& settings, int width, int height);
+
+}  // namespace sateen

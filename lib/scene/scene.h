@@ -1,0 +1,44 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "fabric/fabric.h"
+#include "mesh/mesh.h"
+#include "scene/camera.h"
+#include "scene/environment.h"
+#include "scene/ray_tracer.h"
+#include "scene/surface.h"
+
+namespace sateen {
+
+/// What is seen where there is no cloth.
+enum class Backdrop {
+  none,         ///< nothing: black, alpha 0
+  environment,  ///< the map itself
+  plain         ///< one colour
+};
+
+/// Everything that is rendered, compiled; const while rendering.
+struct Scene {
+  std::unique_ptr<const Mesh> mesh;      ///< a stable address: the ray tracer shares its arrays
+  std::unique_ptr<const RayTracer> rays;
+  Fabric front;
+  std::optional<Fabric> back;            ///< of the cloth; empty: the same as the front
+  Environment environment;
+  Camera camera;
+  Backdrop backdrop = Backdrop::none;
+  Color backdrop_color{0, 0, 0};         ///< working space
+  bool has_gaps = false;                 ///< some look lets light straight through
+};
+
+/// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
+struct ClothPoint {
+  SurfacePoint surface;
+  Frame frame;            ///< may be left-handed: F does not care, and mirrored UVs stay mirrored
+  Vec3 facing;            ///< geometric normal on the viewer's side
+  const Fabric* fabric;   ///< of the side that is seen
+  Vec3 wo;                ///< towards the viewer, cloth frame; wo.z > 0
+};
+ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction);
+
+}  // namespace sateen
