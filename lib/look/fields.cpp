@@ -69,7 +69,7 @@ std::vector<Field> family_fields() {
       ranged("A", &ThreadFamily::A, 0, most_scale, "",
              "Raw scale of the light scattered inside the thread; not a reflectance"),
       ranged("color", &ThreadFamily::color, 0, 1, "",
-             "What a cloth of this family alone shows under white light at normal view; A is solved from it"),
+             "What the cloth would show in white light at normal view if both families had it; gives A"),
       ranged("offsets_deg", &ThreadFamily::offsets_deg, -90, 90, "degrees",
              "Tilts of the thread at the ends of the pieces of its tangent curve"),
       ranged("lengths", &ThreadFamily::lengths, 0, longest, "",

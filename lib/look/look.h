@@ -14,8 +14,8 @@ struct ColorValue {
 };
 
 /// One family of threads as authored (cloth-model.md sections 2 to 4). Degrees; A is the raw RGB scale of the
-/// volume term. `color` wins over A where it is given: A is then solved so that a cloth woven of this family's
-/// threads alone would show `color` under white light at normal view.
+/// volume term. `color` wins over A where it is given: A is then solved so that the cloth would show `color` under
+/// white light at normal view if both families had that colour.
 struct ThreadFamily {
   float eta = 1.46f;       ///< index of refraction, 1 to 3
   float k_d = 0.3f;        ///< isotropic share of the volume term, 0 to 1
