@@ -15,6 +15,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <set>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -144,6 +145,7 @@ void check_layers(const fs::path& path, const std::vector<ImageLayer>& layers) {
     throw OperationError(fmt::format("{}: not written: {}", path.string(), what));
   };
   if (layers.empty()) fail("there are no layers");
+  std::set<std::string> names;
   for (const ImageLayer& layer : layers) {
     const Image& image = layer.image;
     if (image.width < 1 || image.height < 1) fail(fmt::format("layer \"{}\" is empty", layer.name));
@@ -153,6 +155,9 @@ void check_layers(const fs::path& path, const std::vector<ImageLayer>& layers) {
     if (size_t(image.channels) != layer.channels.size())
       fail(fmt::format("layer \"{}\" has {} channels and {} names", layer.name, image.channels,
                        layer.channels.size()));
+    for (size_t i = 0; i < layer.channels.size(); ++i)
+      if (!names.insert(channel_name(layer, i)).second)
+        fail(fmt::format("there are two channels named {}", channel_name(layer, i)));
   }
 }
 
