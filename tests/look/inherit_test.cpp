@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "look/describe.h"
 #include "look_text.h"
 
@@ -22,7 +24,7 @@ TEST(Inherit, RefusesAChainWithoutEnd) {
   use_source_tree();
   const ScratchFolder scratch;
   for (int i = 0; i < 40; ++i)
-    scratch.write("l" + std::to_string(i) + ".json", "{\"inherits\": \"l" + std::to_string(i + 1) + "\"}");
+    scratch.write(fmt::format("l{}.json", i), fmt::format("{{\"inherits\": \"l{}\"}}", i + 1));
   EXPECT_NE(error_of([&] { read_look(scratch.file("l0.json")); }).find("has more than 32 parents"),
             std::string::npos);
   scratch.write("l20.json", "{}");
