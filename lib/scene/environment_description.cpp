@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -228,6 +229,9 @@ MapDescription parse_map_description(const std::string& text, const std::string&
     else if (reader.is(*lights, Kind::list))
       for (const JsonValue& light : lights->items) read_light(reader, light, out);
   }
+  std::stable_sort(problems.begin(), problems.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
   if (!problems.empty()) throw InputError(InputError::Kind::wrong, std::move(problems));
   return out;
 }

@@ -58,6 +58,11 @@ double softbox_level(const Placed& p, const Vec3d& direction) {
   return fade * (1 - double(p.light.hot) * (x * x + y * y) / 2);
 }
 
+double disc_level(const Placed& p, double angle) {
+  const double r = angle / (p.width / 2), edge = double(p.light.edge);
+  return r >= 1 ? 0 : edge > 0 ? smoothstep((1 - r) / edge) : 1;
+}
+
 Color gradient_color(const MapLight& light, double elevation_deg) {
   const auto& stops = light.stops;
   if (stops.empty()) return Color(0, 0, 0);
@@ -82,11 +87,9 @@ Color evaluate(const Placed& p, const Vec3d& direction) {
     case MapLight::Kind::softbox:
       level = softbox_level(p, direction);
       break;
-    case MapLight::Kind::disc: {
-      const double r = angle_between(direction, p.toward) / (p.width / 2), edge = double(light.edge);
-      level = r >= 1 ? 0 : edge > 0 ? smoothstep((1 - r) / edge) : 1;
+    case MapLight::Kind::disc:
+      level = disc_level(p, angle_between(direction, p.toward));
       break;
-    }
     case MapLight::Kind::glow: {
       const double r = angle_between(direction, p.toward) / p.width;
       level = std::exp(-r * r);
@@ -136,6 +139,55 @@ Color texel_mean(const Placed& p, int x, int y, const MapDescription& d) {
   return sum / float(side * side);
 }
 
+void add_light(Image& map, const Placed& p, const MapDescription& d) {
+  const bool same_in_row = p.light.kind == MapLight::Kind::uniform || p.light.kind == MapLight::Kind::gradient;
+  for (int y = 0; y < d.height; ++y) {
+    const Color row = same_in_row ? texel_mean(p, 0, y, d) : Color(0, 0, 0);
+    for (int x = 0; x < d.width; ++x) {
+      const Color c = same_in_row ? row : texel_mean(p, x, y, d);
+      for (int i = 0; i < 3; ++i) map.at(x, y)[i] += c[i];
+    }
+  }
+}
+
+// Integral of a disc's level over its cap [sr], by the midpoint rule in the cosine.
+double disc_solid_angle(const Placed& p) {
+  constexpr int steps = 4096;
+  const double depth = 2 * std::sin(p.width / 4) * std::sin(p.width / 4);  // 1 - cos(width / 2)
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double angle = 2 * std::asin(std::sqrt(depth * (i + 0.5) / steps / 2));
+    sum += disc_level(p, angle);
+  }
+  return 2 * pi_d * depth * sum / steps;
+}
+
+// The points of a texel judge a sun of one or two texels badly: its shape is theirs, its energy is set exactly.
+void add_disc(Image& map, const Placed& p, const MapDescription& d) {
+  Image part(d.width, d.height, 3);
+  add_light(part, p, d);
+  double found = 0;
+  const float most = max_component(p.light.color) * p.light.intensity;
+  const int channel = p.light.color.x == max_component(p.light.color)   ? 0
+                      : p.light.color.y == max_component(p.light.color) ? 1
+                                                                        : 2;
+  if (most <= 0) return;
+  for (int y = 0; y < d.height; ++y)
+    for (int x = 0; x < d.width; ++x)
+      found += double(part.at(x, y)[channel]) * environment_row_weight(y, d.height) * 2 * pi_d / d.width;
+  const double wanted = double(most) * disc_solid_angle(p);
+  if (found > 0.25 * wanted) {
+    for (size_t i = 0; i < map.pixels.size(); ++i) map.pixels[i] += part.pixels[i] * float(wanted / found);
+    return;
+  }
+  // Smaller than the points are apart: all of it in the texel of its middle.
+  const double turns = -std::atan2(p.toward.x, p.toward.z) / (2 * pi_d);
+  const int x = std::min(int((turns - std::floor(turns)) * d.width), d.width - 1);
+  const int y = std::min(int(std::acos(std::clamp(p.toward.y, -1.0, 1.0)) / pi_d * d.height), d.height - 1);
+  const double level = disc_solid_angle(p) / (environment_row_weight(y, d.height) * 2 * pi_d / d.width);
+  for (int i = 0; i < 3; ++i) map.at(x, y)[i] += p.light.color[i] * p.light.intensity * float(level);
+}
+
 const ColorManager::Chromaticities& chromaticities_named(const std::string& space) {
   return space == "acescg" ? ap1_chromaticities : rec709_chromaticities;
 }
@@ -143,17 +195,13 @@ const ColorManager::Chromaticities& chromaticities_named(const std::string& spac
 
 Image make_environment(const MapDescription& d) {
   Image map(d.width, d.height, 3);
-  std::vector<Placed> lights;
-  for (const MapLight& light : d.lights) lights.emplace_back(light);
-  for (int y = 0; y < d.height; ++y)
-    for (const Placed& p : lights) {
-      const bool same_in_row = p.light.kind == MapLight::Kind::uniform || p.light.kind == MapLight::Kind::gradient;
-      const Color row = same_in_row ? texel_mean(p, 0, y, d) : Color(0, 0, 0);
-      for (int x = 0; x < d.width; ++x) {
-        const Color c = same_in_row ? row : texel_mean(p, x, y, d);
-        for (int i = 0; i < 3; ++i) map.at(x, y)[i] += c[i];
-      }
-    }
+  for (const MapLight& light : d.lights) {
+    const Placed placed(light);
+    if (light.kind == MapLight::Kind::disc)
+      add_disc(map, placed, d);
+    else
+      add_light(map, placed, d);
+  }
   if (!d.metered) return map;
   EnvironmentOptions options;
   const Matrix3 to_xyz = rgb_to_xyz(chromaticities_named(d.color_space));

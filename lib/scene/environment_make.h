@@ -51,7 +51,7 @@ MapDescription read_map_description(const std::filesystem::path& path);
 MapDescription parse_map_description(const std::string& text, const std::string& file);
 
 /// The map in its colour space. Every texel is the mean over its solid angle: of 256 points for lights with a border
-/// sharper than four texels, so that a sun smaller than a texel keeps its energy, of 4 to 16 for softer ones.
+/// sharper than four texels, of 4 to 16 for softer ones. A disc has the exact energy of its size, however small.
 Image make_environment(const MapDescription& description);
 
 /// Makes the map and writes it whole or not at all as half OpenEXR with its chromaticities. Returns how many values
