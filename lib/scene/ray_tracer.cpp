@@ -113,7 +113,8 @@ RayTracer::RayTracer(const Mesh& mesh, int threads) : state_(std::make_unique<St
       &s);
   s.scene = rtcNewScene(s.device);
   s.check("making the scene");
-  // Robust: no ray slips between two quads that share an edge, at the price of 10 to 17 per cent.
+  // Robust: no ray slips between two quads that share an edge, at the price of 10 to 17 per cent. Without it 1 ray in
+  // 800,000 gets out of a closed sphere of 200,000 triangles, and rows of camera rays that follow a row of quads lose many.
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(s.scene, RTC_BUILD_QUALITY_MEDIUM);
   const RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_QUAD);

@@ -1,5 +1,6 @@
 #include "mesh/obj.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -77,9 +78,10 @@ TEST(Obj, RefusesTheIndexZeroWithHelp) {
 
 TEST(Obj, RefusesNumbersThatAreNotFiniteOrTooLarge) {
   for (const std::string word : {"nan", "inf", "-inf", "1e999", "1e15", "-2e30"})
-    EXPECT_EQ(error_of("v 0 " + word + " 0\n"),
-              "a.obj:1:5: error: y is " + word + ", expected a finite number below 1e15\n    1 | v 0 " + word +
-                  " 0\n      |     " + std::string(word.size(), '^'));
+    EXPECT_EQ(error_of(fmt::format("v 0 {} 0\n", word)),
+              fmt::format("a.obj:1:5: error: y is {0}, expected a finite number below 1e15\n    1 | v 0 {0} 0\n"
+                          "      |     {1}",
+                          word, std::string(word.size(), '^')));
   EXPECT_EQ(error_of("v 0 1,5 0\n"),
             "a.obj:1:5: error: y is '1,5', expected a number\n    1 | v 0 1,5 0\n      |     ^^^");
   EXPECT_EQ(error_of("v 0 1\n"), "a.obj:1:6: error: z is missing, expected a number\n    1 | v 0 1\n      |      ^");
