@@ -18,7 +18,7 @@ Matrix3 rgb_to_xyz(const ColorManager::Chromaticities& space);
 Matrix3 to_aces2065_1(const ColorManager::Chromaticities& space);
 
 /// Primaries and white of a linear space given by its matrix to ACES2065-1. Rec.709, AP1 and AP0 are recognised
-/// (within 2e-4) and get their own published numbers; any other is described with the ACES white, to which the
+/// (within 2e-3) and get their own published numbers; any other is described with the ACES white, to which the
 /// matrix has adapted it.
 ColorManager::Chromaticities chromaticities_of(const Matrix3& to_aces2065_1);
 

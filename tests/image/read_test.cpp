@@ -153,6 +153,41 @@ TEST(ReadImage, RefusesEveryTruncation) {
   }
 }
 
+TEST(ReadImage, ReadsRadianceFilesAndRefusesCutOnes) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path / "a.hdr";
+  std::string bytes = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 4\n";
+  for (int i = 0; i < 16; ++i)
+    bytes += {char(128), char(64), char(8 * i), char(130)};  // mantissa / 256 * 2^(130 - 128)
+  write_bytes(path, bytes);
+  ImageFileInfo info;
+  const Image image = read_image(path, {}, &info);
+  EXPECT_EQ(info.format, "hdr");
+  EXPECT_EQ(info.pixel_type, "float");
+  EXPECT_NEAR(image.at(0, 0)[0], 2, 0.02f);
+  EXPECT_NEAR(image.at(3, 3)[2], 1.875f, 0.02f);
+  for (size_t cut : {1, 17, 40, 63}) {
+    write_bytes(path, bytes.substr(0, bytes.size() - cut));
+    EXPECT_TRUE(begins_with(refusal(path), "its pixels cannot be read")) << cut << ": " << refusal(path);
+  }
+}
+
+TEST(ReadImage, RefusesCutDisplayPictures) {
+  const ScratchFolder folder;
+  std::mt19937 random(3);
+  Image noise(64, 64, 3);
+  for (float& v : noise.pixels) v = float(random() % 1000) / 1000;
+  for (const char* name : {"a.png", "a.tif"}) {
+    const fs::path path = folder.path / name;
+    write_display_image(path, noise);
+    const std::string bytes = read_bytes(path);
+    for (double share : {0.1, 0.5, 0.9}) {
+      write_bytes(path, bytes.substr(0, size_t(share * double(bytes.size()))));
+      EXPECT_NE(refusal(path), "it was read") << name << " " << share;
+    }
+  }
+}
+
 TEST(ReadImage, SurvivesDamagedBytes) {
   // Not whether it refuses, which a changed pixel does not deserve, but that nothing else than InputError comes out.
   const ScratchFolder folder;
