@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace sateen::app {
+
+/// A word that the program understands: `sateen NAME ...`. Each is called with the words behind its name.
+struct Subcommand {
+  std::string name, summary;
+  int (*run)(const std::vector<std::string>& words);
+};
+
+int run_render(const std::vector<std::string>& words);
+
+/// In the order of the overview.
+const std::vector<Subcommand>& subcommands();
+
+/// Calls the entry that words[0] names, with the rest; wrong use where there is none. `prefix`: "sateen", "sateen look".
+int run_named(const std::vector<Subcommand>& table, const std::string& prefix, const std::vector<std::string>& words);
+
+}  // namespace sateen::app

@@ -1,0 +1,258 @@
+#include "picture_flags.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/nearest_name.h"
+#include "console.h"
+#include "look/json.h"
+#include "mesh/shapes.h"
+
+namespace sateen::app {
+
+namespace {
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  size_t at = 0;
+  for (;;) {
+    const size_t end = text.find(separator, at);
+    parts.push_back(text.substr(at, end - at));
+    if (end == std::string::npos) return parts;
+    at = end + 1;
+  }
+}
+
+void add_scene(Command& c, PictureFlags& f) {
+  SceneSettings& s = f.scene;
+  c.group("Scene");
+  c.text("-l,--look", "NAME|FILE", s.look, fmt::format("the cloth (default: {}); sateen look list shows all", s.look));
+  c.texts("--set", "PATH=VALUE", s.look_overrides,
+          "changes one field of the look, such as warp.gamma_s_deg=4; repeatable");
+  std::string shapes;
+  for (const std::string& shape : built_in_shapes()) shapes += (shapes.empty() ? "" : ", ") + shape;
+  c.text("-m,--mesh", "NAME|FILE.obj", s.mesh, fmt::format("{}, or an OBJ (default: {})", shapes, s.mesh));
+  c.custom(
+      "--level", "N|auto", 1, 1,
+      [&s](const auto& w) { s.level = w.back() == "auto" ? -1 : read_integer("--level", w.back(), 0, 6); },
+      "subdivision, 0 to 6 (default: auto, by pixel size)");
+  c.number("--warp-angle", "DEG", s.warp_angle_deg, -360, 360, "turns the warp on the mesh");
+  c.text("-e,--env", "NAME|FILE", s.environment,
+         fmt::format("the light, a lat-long HDR map (default: {}); sateen env list shows all", s.environment));
+  c.number("--env-rotate", "DEG", s.environment_rotation_deg, -36000, 36000, "turns the light to the right");
+  c.number("--env-exposure", "EV", s.environment_ev, -100, 100, "brightens the light by stops");
+  c.text("--env-space", "NAME", s.environment_space, "colour space of the map (default: as the file says)");
+  c.custom(
+      "--backdrop", "none|environment|COLOUR", 1, 1,
+      [&f](const auto& w) {
+        const std::string& text = w.back();
+        f.scene.backdrop = Backdrop::none;
+        f.display.ground.reset();
+        if (text == "none") return;
+        if (text == "environment") {
+          f.scene.backdrop = Backdrop::environment;
+        } else if (text[0] == '#') {
+          f.display.ground = read_hex_color("--backdrop", text);
+        } else if (const auto parts = split(text, ','); parts.size() == 3) {
+          f.scene.backdrop = Backdrop::plain;
+          for (int i = 0; i < 3; ++i)
+            f.scene.backdrop_color[i] = float(read_number("--backdrop", parts[size_t(i)], 0, 1e6));
+        } else {
+          const std::string near = nearest_name(text, {"none", "environment"});
+          throw InputError(fmt::format("--backdrop is {}, expected none, environment, #rrggbb or r,g,b", shown_name(text)),
+                           near.empty() ? "" : "did you mean " + near + "?");
+        }
+      },
+      "behind the cloth. none: grey paper in display pictures, alpha in an EXR. #rrggbb: that colour on the display, alpha "
+      "in an EXR. r,g,b: light of that colour, working space");
+}
+
+void add_camera(Command& c, PictureFlags& f) {
+  CameraSettings& k = f.scene.camera;
+  c.group("Camera");
+  c.custom(
+      "-r,--res", "W H", 1, 2,
+      [&f](const std::vector<std::string>& w) {
+        const std::vector<std::string> sides = w.size() == 2 ? w : split(w[0], 'x');
+        if (sides.size() != 2)
+          throw InputError(fmt::format("--res is {}, expected two numbers: a width and a height", shown_name(w[0])));
+        f.scene.width = read_integer("width of --res", sides[0], 1, 32768);
+        f.scene.height = read_integer("height of --res", sides[1], 1, 32768);
+      },
+      fmt::format("size in pixels (default: {} {})", f.scene.width, f.scene.height));
+  c.number("--azimuth", "DEG", k.azimuth_deg, -36000, 36000, "walks to the right around the object");
+  c.number("--elevation", "DEG", k.elevation_deg, -89, 89, fmt::format("above the horizon (default: {})", k.elevation_deg));
+  c.number("--fov", "DEG", k.fov_deg, 1, 150, fmt::format("of the longer side (default: {})", k.fov_deg));
+  c.number("--zoom", "X", k.zoom, 0.01, 1000, "above 1 comes closer than the framing");
+  c.custom(
+      "--crop", "X0 Y0 X1 Y1", 4, 4,
+      [&f](const std::vector<std::string>& w) {
+        int v[4];
+        for (size_t i = 0; i < 4; ++i) v[i] = read_integer("--crop", w[i], 0, 32768);
+        f.render.crop = {v[0], v[1], v[2], v[3]};
+        if (v[2] <= v[0] || v[3] <= v[1])
+          throw InputError(fmt::format("--crop {} {} {} {} is empty, expected X0 below X1 and Y0 below Y1", v[0], v[1],
+                                       v[2], v[3]));
+      },
+      "renders and writes this window of the picture only, in pixels from the top left");
+}
+
+void add_quality(Command& c, PictureFlags& f) {
+  StopRules& stop = f.render.stop;
+  c.group("Quality (whichever is met first stops)");
+  c.integer("-s,--spp", "N", stop.spp, 1, 1 << 30, "samples a pixel (default: 64 when no other rule is given)");
+  c.number("--error", "E", stop.error, 1e-6, 100, "relative error of the picture, such as 0.02; its upper bound counts");
+  c.custom(
+      "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
+      "wall clock for rendering: 30, 30s, 2m, 1h30m");
+  c.integer("--seed", "N", f.seed, 0, 0x7fffffff, "another seed is another noise (default: 1)");
+  c.integer("-t,--threads", "N", f.render.threads, 0, 4096, "0: all that this process may use (default)");
+  c.text("--strategy", "NAME", f.strategy,
+         fmt::format("how light is sampled (default: {}): {}", f.strategy, fmt::join(strategy_names(), ", ")));
+  c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
+            fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));
+  c.integer("--bounces", "N", f.render.light.bounces, 0, 64, "light that meets cloth again (default: 0)");
+  c.text("--effects", "LIST", f.effects, "auto, all, none, or changes such as +bounces (default: auto)");
+  c.flag("--strict", f.strict, "exit code 5 when a sample was not finite");
+}
+
+void add_output(Command& c, PictureFlags& f) {
+  c.group("Colour");
+  c.custom(
+      "--exposure", "EV|auto", 1, 1,
+      [&f](const auto& w) {
+        f.exposure_ev.reset();
+        if (w.back() != "auto") f.exposure_ev = float(read_number("--exposure", w.back(), -100, 100));
+      },
+      "of display pictures; an EXR keeps the light as it is (default: auto, metered from the light)");
+  c.text("--ocio", "FILE", f.ocio, "colour config, or built-in (default: $OCIO, else built-in)");
+  c.text("--working", "NAME", f.working, "space to render in (default: the config's scene_linear role)");
+  c.text("--display", "NAME", f.display.display, "(default: the config's own)");
+  c.text("--view", "NAME", f.display.view, "(default: the display's own)");
+  c.flag("--transparent", f.display.transparent, "alpha instead of a backdrop in PNG and TIFF");
+
+  c.group("Output");
+  c.texts("-o,--output", "FILE", f.outputs, "repeatable; the extension picks the format: exr, png, jpg, tif");
+  c.text("--aov", "LIST", f.layers,
+         fmt::format("layers of an EXR beside the beauty: all, none, or of {}", fmt::join(layer_names(), ",")));
+  c.text("--stats", "FILE", f.stats, "writes what was done and how long it took, as JSON");
+  c.flag("--json", voice.json, "prints the same JSON, and nothing else, on standard output");
+  c.choice("--progress", f.progress_name, {"auto", "bar", "alf", "openjd", "json", "none"},
+           "how progress is told (default: auto, a bar on a terminal and lines elsewhere)");
+  c.flag("--dry-run", f.dry_run, "reads and checks everything, says what would be done, renders nothing");
+  c.flag("-q,--quiet", f.quiet, "warnings and errors only");
+  c.flag("-v,--verbose", f.verbose, "says more");
+}
+
+ProgressStyle progress_style(const PictureFlags& f) {
+  if (f.progress_name == "none" || (f.quiet && f.progress_name == "auto")) return ProgressStyle::none;
+  if (f.progress_name == "bar") return ProgressStyle::bar;
+  if (f.progress_name == "alf") return ProgressStyle::alf;
+  if (f.progress_name == "openjd") return ProgressStyle::openjd;
+  if (f.progress_name == "json") return ProgressStyle::json;
+  return error_is_terminal() ? ProgressStyle::bar : ProgressStyle::lines;
+}
+
+// What can be switched today: light that meets cloth again. Shadows and gaps are always there.
+void settle_effects(const std::string& list, bool bounces_given, LightSettings& light) {
+  constexpr int all_bounces = 4;
+  const std::vector<std::string> known{"bounces"};
+  for (const std::string& word : split(list, ',')) {
+    if (word == "auto") continue;
+    const bool on = word == "all" || word[0] == '+', off = word == "none" || word[0] == '-';
+    const std::string name = word == "all" || word == "none" ? "bounces" : word.substr(word.empty() || (!on && !off) ? 0 : 1);
+    if (!on && !off)
+      throw InputError(fmt::format("--effects has {}, expected auto, all, none, or names with + or -", shown_name(word)),
+                       word == "bounces" ? "did you mean +bounces?" : suggestion(word, {"auto", "all", "none"}));
+    if (name != "bounces")
+      throw InputError(fmt::format("there is no effect {}", shown_name(name)),
+                       "this version can switch bounces; self-shadowing and gaps are always on");
+    if (on && !bounces_given) light.bounces = all_bounces;
+    if (off) light.bounces = 0;
+  }
+}
+}  // namespace
+
+void add_picture_flags(Command& command, PictureFlags& flags) {
+  add_scene(command, flags);
+  add_camera(command, flags);
+  add_quality(command, flags);
+  add_output(command, flags);
+}
+
+void settle_picture_flags(const Command& command, PictureFlags& f, int default_spp) {
+  voice.verbosity = f.quiet ? Verbosity::quiet : f.verbose ? Verbosity::detailed : Verbosity::normal;
+  StopRules& stop = f.render.stop;
+  if (stop.spp == 0 && stop.error == 0 && stop.seconds == 0) stop.spp = default_spp;
+  f.render.seed = std::uint32_t(f.seed);
+  f.render.light.strategy = strategy_from_name(f.strategy);
+  f.scene.threads = f.render.threads;
+  settle_effects(f.effects, command.given("--bounces"), f.render.light);
+  f.layer_list = read_layers(f.layers);
+  f.progress = progress_style(f);
+  const Crop& crop = f.render.crop;
+  if (crop.x1 > f.scene.width || crop.y1 > f.scene.height)
+    throw InputError(fmt::format("--crop ends at {} {}, expected at most {} {}, the size of the picture", crop.x1,
+                                 crop.y1, f.scene.width, f.scene.height));
+}
+
+std::vector<std::string> read_layers(const std::string& list) {
+  if (list == "all") return layer_names();
+  if (list == "none") return {};
+  std::vector<std::string> chosen;
+  for (const std::string& word : split(list, ',')) {
+    if (std::find(layer_names().begin(), layer_names().end(), word) == layer_names().end())
+      throw InputError(fmt::format("there is no layer {}", shown_name(word)), suggestion(word, layer_names()));
+    chosen.push_back(word);
+  }
+  return chosen;
+}
+
+double read_duration(const std::string& what, const std::string& text) {
+  constexpr double longest = 1e7;
+  double total = 0;
+  const char *at = text.data(), *const end = at + text.size();
+  bool good = at != end;
+  while (good && at != end) {
+    double value = 0;
+    const auto [next, code] = std::from_chars(at, end, value, std::chars_format::fixed);
+    good = code == std::errc() && value >= 0;
+    at = next;
+    if (!good) break;
+    const char unit = at == end ? 's' : *at++;
+    good = unit == 's' || unit == 'm' || unit == 'h';
+    total += value * (unit == 'h' ? 3600 : unit == 'm' ? 60 : 1);
+  }
+  if (!good || !(total > 0) || total > longest)
+    throw InputError(fmt::format("{} is {}, expected a time such as 30, 30s, 2m or 1h30m", what, shown_name(text)));
+  return total;
+}
+
+Color read_hex_color(const std::string& what, const std::string& text) {
+  std::string digits = text.substr(1);
+  if (digits.size() == 3) digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
+  unsigned value = 0;
+  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  if (digits.size() != 6 || code != std::errc() || end != digits.data() + 6)
+    throw InputError(fmt::format("{} is {}, expected # and six hexadecimal digits, such as #c0b8a8", what, shown_name(text)));
+  return {float(value >> 16) / 255.0f, float(value >> 8 & 255u) / 255.0f, float(value & 255u) / 255.0f};
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) {
+    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                               "0123456789_-+=.,/:@%") == std::string::npos;
+    std::string quoted;
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += (line.empty() ? "" : " ") + (plain ? word : "'" + quoted + "'");
+  }
+  return line;
+}
+
+std::string effects_text(const LightSettings& light, bool gaps) {
+  return fmt::format("shadows{}{}", gaps ? ",gaps" : "", light.bounces > 0 ? ",bounces" : "");
+}
+
+}  // namespace sateen::app

@@ -1,0 +1,51 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "render/metadata.h"
+#include "render/progress.h"
+
+namespace sateen::app {
+
+/// What `render` and `turntable` are both told about a picture, as typed.
+struct PictureFlags {
+  SceneSettings scene;
+  RenderSettings render;
+  DisplaySettings display;
+  std::optional<float> exposure_ev;    ///< empty: metered
+  std::vector<std::string> outputs;
+  std::string ocio, working, stats;
+  std::string strategy = strategy_name(LightSettings().strategy), effects = "auto", layers = "all";
+  std::string progress_name = "auto";
+  bool strict = false, dry_run = false, quiet = false, verbose = false;
+  int seed = 1;
+
+  std::vector<std::string> layer_list;                  ///< settled from `layers`
+  ProgressStyle progress = ProgressStyle::lines;        ///< settled from `progress_name`
+};
+
+/// Names the flags in `command`, which writes into `flags` when it parses.
+void add_picture_flags(Command& command, PictureFlags& flags);
+
+/// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress, voice.
+/// `default_spp` is what is rendered when no stop rule was given.
+void settle_picture_flags(const Command& command, PictureFlags& flags, int default_spp);
+
+/// Layers that `--aov` names. "all" and "none" too.
+std::vector<std::string> read_layers(const std::string& list);
+
+/// "30", "30s", "2m", "1h", "1h30m" in seconds.
+double read_duration(const std::string& what, const std::string& text);
+
+/// "#rrggbb" or "#rgb" as code values in [0, 1].
+Color read_hex_color(const std::string& what, const std::string& text);
+
+/// The words of a command line, quoted for a shell where needed.
+std::string shell_line(const std::vector<std::string>& words);
+
+/// Names of the effects in force, for the metadata.
+std::string effects_text(const LightSettings& light, bool gaps);
+
+}  // namespace sateen::app

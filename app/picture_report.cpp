@@ -1,0 +1,193 @@
+#include "picture_report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+
+#include "base/files.h"
+#include "base/parallel.h"
+#include "console.h"
+#include "look/json_writer.h"
+
+namespace sateen::app {
+
+namespace {
+std::string size_text(long long bytes) {
+  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
+  return bytes < 1'000'000 ? fmt::format("{:.0f} kB", double(bytes) / 1e3) : fmt::format("{:.1f} MB", double(bytes) / 1e6);
+}
+
+std::string count_text(long long n) {
+  std::string digits = std::to_string(n), out;
+  for (size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out += ",";
+    out += digits[i];
+  }
+  return out;
+}
+
+std::string seconds_text(double s) { return s < 60 ? fmt::format("{:.1f} s", s) : clock_text(s); }
+
+std::string error_text(const PictureError& e) {
+  return e.known ? fmt::format("error E {:.4f} (95 %: {:.4f} to {:.4f})", e.error, e.low, e.high)
+                 : std::string("error not known below 2 samples a pixel");
+}
+
+std::string rules_text(const StopRules& stop) {
+  std::vector<std::string> rules;
+  if (stop.spp > 0) rules.push_back(fmt::format("{} samples a pixel", stop.spp));
+  if (stop.error > 0) rules.push_back(fmt::format("error {}", stop.error));
+  if (stop.seconds > 0) rules.push_back(seconds_text(stop.seconds));
+  return fmt::format("{}", fmt::join(rules, " or "));
+}
+
+std::string reason_text(const StopRules& stop, const RenderResult& result) {
+  switch (result.reason) {
+    case StopReason::samples:
+      return stop.error > 0 ? fmt::format("stopped at {} samples a pixel before the error fell to {}", stop.spp, stop.error)
+                            : "all samples done";
+    case StopReason::error: return fmt::format("stopped at the asked error, {}", stop.error);
+    case StopReason::time: {
+      const std::string time = seconds_text(stop.seconds);
+      if (stop.error > 0) return fmt::format("stopped by time ({}) before the error fell to {}", time, stop.error);
+      if (stop.spp > 0) return fmt::format("stopped by time ({}) before {} samples a pixel", time, stop.spp);
+      return fmt::format("stopped by time ({})", time);
+    }
+    case StopReason::interrupted: break;
+  }
+  return "stopped by a signal: the pictures hold the samples that were done";
+}
+
+void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
+  const SceneSettings& s = job.scene;
+  w.member("version", job.version).member("job", job_hash(job, report));
+  w.member("look", report.look.name).member("look_hash", report.look_hash);
+  w.member("mesh", s.mesh).member("mesh_hash", report.mesh_hash).member("level", report.level);
+  w.member("cage_faces", report.cage_faces).member("triangles", report.triangles);
+  w.member("map", s.environment).member("map_hash", report.environment_hash);
+  w.member("map_rotation_deg", s.environment_rotation_deg).member("map_exposure_ev", s.environment_ev);
+  w.key("size").open_list().value(s.width).value(s.height).close();
+  w.member("exposure_ev", job.exposure_ev).member("exposure_metered", !flags.exposure_ev);
+  w.member("working_space", job.working_space).member("color_config", job.color_config);
+  w.member("display", job.display.display).member("view", job.display.view);
+  w.member("strategy", strategy_name(job.render.light.strategy)).member("effects", job.effects);
+  w.member("bounces", job.render.light.bounces).member("seed", job.render.seed);
+  w.member("threads", thread_count(job.render.threads));
+  const StopRules& stop = job.render.stop;
+  w.key("asked").open_object();
+  if (stop.spp > 0) w.member("spp", stop.spp);
+  if (stop.error > 0) w.member("error", stop.error);
+  if (stop.seconds > 0) w.member("seconds", stop.seconds);
+  w.close();
+  w.key("assembly_seconds").open_object().member("look", report.look_seconds).member("mesh", report.mesh_seconds);
+  w.member("map", report.environment_seconds).member("ray_tracer", report.tracer_seconds).close();
+  w.member("ray_tracer_bytes", report.tracer_bytes);
+  w.key("warnings").open_list();
+  for (const std::string& warning : report.warnings) w.value(warning);
+  w.close();
+}
+
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return (long long)(usage.ru_maxrss) * 1024;
+}
+
+void write_stats(const PictureFlags& flags, const std::string& json) {
+  if (!flags.stats.empty()) write_text_whole(flags.stats, json + "\n");
+  if (voice.json) print_result(json);
+}
+}  // namespace
+
+PictureJob make_job(const PictureFlags& flags, const SceneReport& report, const Scene& scene,
+                    const ColorManager& colors, const std::string& words) {
+  PictureJob job;
+  job.scene = flags.scene;
+  job.render = flags.render;
+  job.display = flags.display;
+  job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
+  job.layers = flags.layer_list;
+  job.effects = effects_text(flags.render.light, scene.has_gaps);
+  job.color_config = colors.description();
+  job.working_space = colors.working_space();
+  job.version = SATEEN_VERSION;
+  job.command_line = "sateen " + words;
+  return job;
+}
+
+void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
+  for (const std::string& warning : report.warnings) print_warning(warning);
+  const SceneSettings& s = job.scene;
+  print_note(fmt::format("{} on {} under {}, {} x {}", report.look.name, s.mesh, s.environment, s.width, s.height));
+  print_note(fmt::format("level {}, {} triangles; exposure {:+.2f} EV{}; {}", report.level, count_text(report.triangles),
+                         job.exposure_ev, flags.exposure_ev ? "" : " (metered)", rules_text(job.render.stop)));
+  print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
+                           job.display.display, job.display.view));
+  print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
+                           job.effects, job.render.seed, thread_count(job.render.threads)));
+  print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",
+                           report.look_seconds, report.mesh_seconds, report.environment_seconds,
+                           report.tracer_seconds, size_text(report.tracer_bytes)));
+}
+
+int report_dry_run(const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
+  for (const std::string& output : flags.outputs) print_note(fmt::format("would write {}", output));
+  JsonWriter w;
+  w.open_object().member("dry_run", true);
+  write_job(w, flags, job, report);
+  w.key("files").open_list();
+  for (const std::string& output : flags.outputs) w.value(output);
+  w.close().close();
+  write_stats(flags, w.text());
+  return 0;
+}
+
+void report_picture(const PictureFlags& flags, const PictureJob& job, const SceneReport& report,
+                    const RenderResult& result, const std::vector<WrittenPicture>& written, int code) {
+  for (const WrittenPicture& file : written) {
+    const std::string content = file.layers > 0
+                                    ? fmt::format("{} layers, {}", file.layers, job.working_space)
+                                    : fmt::format("{}, {}", job.display.display, job.display.view);
+    print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content,
+                           size_text(file.bytes)));
+    if (file.clamped > 0)
+      print_warning(fmt::format("{}: {} values were beyond the range of half and were clamped to 65504",
+                                file.path.string(), file.clamped));
+  }
+  print_note(fmt::format("{} samples a pixel in {}, {}; {}", result.samples, seconds_text(result.seconds),
+                         error_text(result.error), reason_text(job.render.stop, result)));
+  print_detail(fmt::format("first complete pass after {:.2f} s; {:.1f} CPU-s; rays: {} camera, {} shadow, {} bounce; peak memory {}",
+                           result.first_pass_seconds, result.cpu_seconds, count_text(result.rays.camera),
+                           count_text(result.rays.shadow), count_text(result.rays.bounce), size_text(peak_memory_bytes())));
+  if (result.rays.non_finite > 0)
+    print_warning(fmt::format("{} samples were not finite and were left out: please report this with its command line",
+                              result.rays.non_finite));
+  JsonWriter w;
+  w.open_object();
+  write_job(w, flags, job, report);
+  w.member("spp", result.samples).member("stopped_by", stop_reason_text(result.reason));
+  w.key("error");
+  if (result.error.known)
+    w.open_object().member("value", result.error.error).member("low", result.error.low).member("high", result.error.high).close();
+  else
+    w.null();
+  w.member("seconds", result.seconds).member("cpu_seconds", result.cpu_seconds);
+  w.member("first_pass_seconds", result.first_pass_seconds).member("peak_memory_bytes", peak_memory_bytes());
+  w.key("rays").open_object().member("camera", result.rays.camera).member("shadow", result.rays.shadow);
+  w.member("bounce", result.rays.bounce).close();
+  w.member("non_finite", result.rays.non_finite).member("exit_code", code);
+  w.key("files").open_list();
+  for (const WrittenPicture& file : written)
+    w.open_object().member("path", file.path.string()).member("bytes", file.bytes).member("layers", file.layers).close();
+  w.close().close();
+  write_stats(flags, w.text());
+}
+
+std::function<void(std::string_view)> progress_writer(ProgressStyle style) {
+  const bool farm = style == ProgressStyle::alf || style == ProgressStyle::openjd;
+  if (farm && !voice.json) return [](std::string_view text) { print_result(text); };
+  return [](std::string_view text) { print_progress(text); };
+}
+
+}  // namespace sateen::app

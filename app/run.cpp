@@ -1,0 +1,100 @@
+#include "run.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "base/parallel.h"
+#include "commands.h"
+#include "console.h"
+#include "exit_code.h"
+#include "look/json.h"
+#include "signals.h"
+
+namespace sateen::app {
+
+const std::vector<Subcommand>& subcommands() {
+  static const std::vector<Subcommand> all{
+      {"render", "one picture of a cloth", run_render},
+  };
+  return all;
+}
+
+namespace {
+std::string overview() {
+  std::string text =
+      "Sateen renders woven cloth: a look, a mesh and an HDR map in, a colour-managed picture out.\n\n"
+      "  sateen render                 the default satin: sateen.png and sateen.exr\n"
+      "  sateen COMMAND --help         flags and examples of a command\n\nCommands\n";
+  for (const Subcommand& each : subcommands()) text += fmt::format("  {:<12}{}\n", each.name, each.summary);
+  text +=
+      "\nExit codes\n"
+      "  0  done                                    3  a file is missing or unreadable\n"
+      "  1  rendering or writing failed             4  stopped before the asked quality\n"
+      "  2  wrong use, or a file with wrong content 5  samples that are not finite, with --strict\n"
+      "  130, 143  stopped by a signal; what was rendered so far is written\n\n"
+      "Environment: SATEEN_PATH (folders with looks/ and envmaps/, separated by colons), SATEEN_HOME (the program's\n"
+      "own), OCIO (a colour config), SLURM_CPUS_PER_TASK.\n";
+  return text;
+}
+
+int run_help(const std::vector<std::string>& words) {
+  if (words.empty()) {
+    print_result(overview());
+    return done;
+  }
+  std::vector<std::string> asked = words;
+  asked.push_back("--help");
+  return run_named(subcommands(), "sateen", asked);
+}
+
+int dispatch(const std::vector<std::string>& words) {
+  if (words.empty() || words[0] == "--help" || words[0] == "-h") return run_help({});
+  if (words[0] == "help") return run_help({words.begin() + 1, words.end()});
+  if (words[0] == "--version" || words[0] == "-V" || words[0] == "version") {
+    print_result("sateen " SATEEN_VERSION);
+    return done;
+  }
+  return run_named(subcommands(), "sateen", words);
+}
+}  // namespace
+
+int run_named(const std::vector<Subcommand>& table, const std::string& prefix, const std::vector<std::string>& words) {
+  std::vector<std::string> names;
+  for (const Subcommand& each : table) names.push_back(each.name);
+  if (words.empty()) throw InputError(fmt::format("{} wants a command", prefix), suggestion("", names));
+  for (const Subcommand& each : table)
+    if (each.name == words[0]) return each.run({words.begin() + 1, words.end()});
+  throw InputError(fmt::format("there is no command {} {}", prefix, shown_name(words[0])), suggestion(words[0], names));
+}
+
+int run(int argc, char** argv) {
+  install_signals();
+  flush_denormals();
+  int code = done;
+  try {
+    code = dispatch({argv + (argc > 0), argv + argc});
+  } catch (const InputError& error) {
+    print_error(error.what());
+    code = error.kind == InputError::Kind::unreadable ? unreadable : wrong_use;
+  } catch (const OperationError& error) {
+    print_error(fmt::format("error: {}", error.what()));
+    code = failed;
+  } catch (const std::bad_alloc&) {
+    print_error("error: not enough memory\n  help: a lower --level or a smaller --res needs less");
+    code = failed;
+  } catch (const std::exception& error) {
+    print_error(fmt::format("error: something failed that should not have; please report it ({})", error.what()));
+    code = failed;
+  }
+  if (!finish_output() && code == done) {
+    print_error("error: standard output cannot be written");
+    code = failed;
+  }
+  return code;
+}
+
+}  // namespace sateen::app

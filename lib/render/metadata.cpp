@@ -1,0 +1,130 @@
+#include "render/metadata.h"
+
+#include <fmt/format.h>
+
+#include "base/files.h"
+#include "look/describe.h"
+
+namespace sateen {
+
+namespace {
+const char* const finished_by_samples = "samples";
+
+std::string backdrop_text(const PictureJob& job) {
+  const Color& c = job.scene.backdrop_color;
+  switch (job.scene.backdrop) {
+    case Backdrop::environment: return "environment";
+    case Backdrop::plain: return fmt::format("{} {} {}", c.x, c.y, c.z);
+    case Backdrop::none: break;
+  }
+  return "none";
+}
+}  // namespace
+
+std::string stop_reason_text(StopReason reason) {
+  switch (reason) {
+    case StopReason::samples: return finished_by_samples;
+    case StopReason::error: return "error";
+    case StopReason::time: return "time";
+    case StopReason::interrupted: break;
+  }
+  return "interrupted";
+}
+
+std::string job_hash(const PictureJob& job, const SceneReport& report) {
+  const SceneSettings& s = job.scene;
+  const CameraSettings& c = s.camera;
+  const RenderSettings& r = job.render;
+  Hash hash;
+  const auto add = [&](const auto&... values) {
+    // A separator between all parts, so that "a" "bc" is not "ab" "c".
+    (hash.add(fmt::format("{}", values)).add("\n"), ...);
+  };
+  add(job.version, report.look_hash, report.mesh_hash, report.environment_hash, report.level, s.warp_angle_deg);
+  add(s.environment_space, s.environment_rotation_deg, s.environment_ev, backdrop_text(job), job.turn);
+  add(c.azimuth_deg, c.elevation_deg, c.fov_deg, c.margin, c.zoom, s.width, s.height);
+  add(strategy_name(r.light.strategy), r.light.candidates, r.light.bounces, r.seed, job.effects);
+  add(r.stop.spp, r.stop.error, r.stop.seconds, r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1);
+  add(job.color_config, job.working_space, job.display.display, job.display.view, job.exposure_ev);
+  add(job.display.transparent, job.display.ground.has_value());
+  if (job.display.ground) add(job.display.ground->x, job.display.ground->y, job.display.ground->z);
+  for (const std::string& layer : job.layers) add(layer);
+  return hash.hex();
+}
+
+Attributes picture_attributes(const PictureJob& job, const SceneReport& report, const RenderResult& result) {
+  const SceneSettings& s = job.scene;
+  const RenderSettings& r = job.render;
+  Attributes a;
+  const auto real = [&](const char* name, double value) { a[std::string("sateen:") + name] = value; };
+  const auto whole = [&](const char* name, long long value) {
+    // EXR's integers have 32 bits.
+    a[std::string("sateen:") + name] = int(std::min<long long>(value, 0x7fffffff));
+  };
+  const auto text = [&](const char* name, const std::string& value) { a[std::string("sateen:") + name] = value; };
+  a["Software"] = "sateen " + job.version;
+  text("version", job.version);
+  text("command", job.command_line);
+  text("job", job_hash(job, report));
+  text("look", write_look(report.look));
+  text("look_name", report.look.name);
+  text("look_hash", report.look_hash);
+  text("mesh", s.mesh);
+  text("mesh_hash", report.mesh_hash);
+  whole("level", report.level);
+  text("map", s.environment);
+  text("map_hash", report.environment_hash);
+  real("map_rotation", double(s.environment_rotation_deg));
+  real("map_exposure", double(s.environment_ev));
+  real("azimuth", double(s.camera.azimuth_deg));
+  real("elevation", double(s.camera.elevation_deg));
+  real("fov", double(s.camera.fov_deg));
+  real("zoom", double(s.camera.zoom));
+  text("backdrop", backdrop_text(job));
+  if (!job.turn.empty()) text("turn", job.turn);
+  if (r.crop.x1 > r.crop.x0)
+    text("crop", fmt::format("{} {} {} {} of {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1, s.width, s.height));
+  text("strategy", strategy_name(r.light.strategy));
+  whole("candidates", r.light.candidates);
+  whole("bounces", r.light.bounces);
+  text("effects", job.effects);
+  whole("seed", r.seed);
+  whole("spp", result.samples);
+  if (r.stop.spp > 0) whole("spp_asked", r.stop.spp);
+  if (r.stop.error > 0) real("error_asked", r.stop.error);
+  if (r.stop.seconds > 0) real("seconds_asked", r.stop.seconds);
+  if (result.error.known) {
+    real("error", result.error.error);
+    real("error_low", result.error.low);
+    real("error_high", result.error.high);
+  }
+  text("stopped_by", stop_reason_text(result.reason));
+  real("seconds", result.seconds);
+  whole("non_finite", result.rays.non_finite);
+  text("working_space", job.working_space);
+  text("color_config", job.color_config);
+  text("display", job.display.display);
+  text("view", job.display.view);
+  real("exposure", double(job.exposure_ev));
+  return a;
+}
+
+bool is_finished_picture(const std::filesystem::path& path, const std::string& hash, const StopRules& stop) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) return false;
+  try {
+    const Attributes a = read_attributes(path);
+    const auto job = a.find("sateen:job"), reason = a.find("sateen:stopped_by"), spp = a.find("sateen:spp");
+    if (job == a.end() || reason == a.end() || spp == a.end()) return false;
+    const auto* text = std::get_if<std::string>(&job->second);
+    const auto* by = std::get_if<std::string>(&reason->second);
+    const int* samples = std::get_if<int>(&spp->second);
+    if (!text || !by || !samples || *text != hash || *by == stop_reason_text(StopReason::interrupted)) return false;
+    if (*by == finished_by_samples && *samples != stop.spp) return false;
+    return *samples > 0 && read_image(path).width > 0;
+  } catch (const std::exception&) {
+    return false;  // a file that cannot be read is simply made again
+  }
+}
+
+}  // namespace sateen

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "render/assemble.h"
+#include "render/picture.h"
+
+namespace sateen {
+
+/// One picture as it was asked for.
+struct PictureJob {
+  SceneSettings scene;
+  RenderSettings render;
+  DisplaySettings display;           ///< settled
+  float exposure_ev = 0;             ///< in force
+  std::vector<std::string> layers;   ///< of an EXR, beside the beauty
+  std::string effects;               ///< in force, "shadows,gaps"
+  std::string color_config;          ///< ColorManager::description()
+  std::string working_space;
+  std::string version, command_line;
+  std::string turn;                  ///< of a turntable's frame, "object 40"; empty for a still
+};
+
+/// Hash of everything that decides the pixels: look, mesh, map, camera, sampling, colour, the program's version. Not the
+/// number of threads, the files' names or the command line.
+std::string job_hash(const PictureJob& job, const SceneReport& report);
+
+/// The `sateen:*` attributes of a finished picture (README.md lists them) and Software.
+Attributes picture_attributes(const PictureJob& job, const SceneReport& report, const RenderResult& result);
+
+/// "asked samples", "asked error", "asked time", "interrupted".
+std::string stop_reason_text(StopReason reason);
+
+/// True where the file decodes, carries this job's hash, and was finished: with `spp` asked, at that many samples.
+bool is_finished_picture(const std::filesystem::path& path, const std::string& hash, const StopRules& stop);
+
+}  // namespace sateen

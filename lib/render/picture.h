@@ -1,0 +1,66 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "film/film.h"
+#include "image/color.h"
+#include "image/file.h"
+#include "render/render.h"
+
+namespace sateen {
+
+/// How a picture is shown: what display formats get and an EXR does not.
+struct DisplaySettings {
+  std::string display, view;        ///< empty: the config's defaults
+  std::optional<float> exposure_ev; ///< empty: as metered
+  std::optional<Color> ground;      ///< code values of the display in [0, 1] behind the cloth; empty: paper
+  bool transparent = false;         ///< alpha instead of a ground
+};
+
+/// Fills in the config's defaults. InputError for a display or view that the config does not have, or that it cannot
+/// make from the working space.
+DisplaySettings settle_display(DisplaySettings settings, const ColorManager& colors);
+
+/// Code values of the photographer's paper behind the cloth, grey, the same on every display: light falls off from a
+/// pool behind the object towards the corners. x and y in [0, 1] from the top left.
+float paper_code(float x, float y);
+
+/// Code values, 3 channels, or 4 with `transparent`. `beauty` is premultiplied RGBA in the working space. Cloth and ground
+/// are joined as display light, after the view has been applied to the cloth, so that neither exposure nor view
+/// changes the ground; edges are not darkened by highlights far beyond white.
+Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
+                      float exposure_ev);
+
+/// The window of an image; the whole where it is empty.
+Image crop_image(const Image& image, const Crop& window);
+
+/// Kinds of file by extension, lower case, without the point.
+bool is_exr(const std::filesystem::path& path);
+const std::vector<std::string>& picture_extensions();
+
+/// InputError where a picture cannot be written there: unknown extension, the folder cannot be made or written.
+void check_picture_path(const std::filesystem::path& path);
+
+/// Names of the layers beside the beauty, in the order of develop_layers().
+const std::vector<std::string>& layer_names();
+
+/// Writes one file by its extension; what is written tells how many half values had to be clamped.
+struct PictureContent {
+  const Film* film = nullptr;
+  Crop crop;                         ///< only this window is written
+  std::vector<std::string> layers;   ///< beside the beauty, for an EXR
+  DisplaySettings display;           ///< settled
+  float exposure_ev = 0;
+  Attributes attributes;
+};
+struct WrittenPicture {
+  std::filesystem::path path;
+  int width = 0, height = 0, layers = 0;  ///< layers: 0 for display formats
+  long long bytes = 0, clamped = 0;
+};
+WrittenPicture write_picture(const std::filesystem::path& path, const PictureContent& content,
+                             const ColorManager& colors);
+
+}  // namespace sateen
