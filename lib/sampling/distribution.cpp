@@ -50,13 +50,14 @@ std::uint32_t tabulate(std::span<const double> weights, std::span<std::uint32_t>
   return used;
 }
 
-CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u) {
+CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u, std::uint32_t first_cell,
+                        std::uint32_t last_cell) {
   if (used == 0) return {};
   const double x = std::clamp(u, 0.0, 1.0 - 0x1p-53) * scale;
   const auto key = std::uint32_t(x);
   // The last cell that starts at or before the key; equal starts are empty cells followed by the one that owns them.
-  const std::uint32_t* first = starts.data();
-  std::uint32_t length = used;
+  const std::uint32_t* first = starts.data() + first_cell;
+  std::uint32_t length = last_cell - first_cell + 1;
   while (length > 1) {
     const std::uint32_t half = length / 2;
     first = first[half] <= key ? first + half : first;
@@ -65,6 +66,21 @@ CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t use
   const auto cell = std::uint32_t(first - starts.data());
   const std::uint64_t start = starts[cell], count = end_of(starts, used, cell) - start;
   return {cell, std::min((x - double(start)) / double(count), 1.0 - 0x1p-53), double(count) / scale};
+}
+
+CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u) {
+  return sample_table(starts, used, u, 0, used - 1);
+}
+
+void tabulate_guide(std::span<const std::uint32_t> starts, std::uint32_t used, std::span<std::uint32_t> guide) {
+  const std::size_t parts = guide.size() - 1;
+  std::uint32_t cell = 0;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const std::uint64_t key = (std::uint64_t(k) << 32) / parts;
+    while (cell + 1 < used && starts[cell + 1] <= key) ++cell;
+    guide[k] = cell;
+  }
+  guide[parts] = used > 0 ? used - 1 : 0;
 }
 
 double table_probability(std::span<const std::uint32_t> starts, std::uint32_t used, std::uint32_t cell) {
@@ -91,7 +107,11 @@ CellSample2D sample_cell(const Distribution2D& d, double u0, double u1) {
   const CellSample row = sample_cell(d.rows, u1);
   if (row.probability == 0) return {};
   const auto width = std::size_t(d.width);
-  const CellSample column = sample_table({d.starts.data() + row.cell * width, width}, d.used[row.cell], u0);
+  const std::size_t parts = std::size_t(1) << d.guide_bits;
+  const auto part = std::size_t(std::clamp(u0, 0.0, 1.0 - 0x1p-53) * double(parts));
+  const std::uint32_t* guide = d.guide.data() + row.cell * (parts + 1) + part;
+  const CellSample column =
+      sample_table({d.starts.data() + row.cell * width, width}, d.used[row.cell], u0, guide[0], guide[1]);
   return {column.cell, row.cell, column.offset, row.offset, row.probability * column.probability};
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -141,6 +143,30 @@ TEST(Distribution, WorksForEveryShapeInTwoDimensions) {
       ASSERT_LT(s.x, std::uint32_t(shape[0]));
       ASSERT_LT(s.y, std::uint32_t(shape[1]));
       ASSERT_EQ(s.probability, cell_probability(d, s.x, s.y));
+    }
+  }
+}
+
+TEST(Distribution, FindsTheSameCellWithItsGuideAsWithout) {
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int width : {1, 7, 8, 9, 100, 1024}) {
+    std::vector<double> weights(static_cast<size_t>(width) * 3);
+    // Some rows even, some of one dominant cell, some with empty ends.
+    for (size_t i = 0; i < weights.size(); ++i) weights[i] = random() % 3 ? std::pow(uniform(random), 20) : 0.0;
+    weights[size_t(width) / 2] = 1;
+    const Distribution2D d = build(width, 3, weights);
+    for (int k = 0; k < 30000; ++k) {
+      const double v = uniform(random);
+      // The borders of the guide's parts and their neighbours, then anything.
+      const double border = double(k % 257) / 256;
+      const double u = k < 771 ? std::clamp(border + (k / 257 - 1) * 0x1p-32, 0.0, just_below_one) : uniform(random);
+      const CellSample2D with = sample_cell(d, u, v);
+      if (with.probability == 0) continue;
+      const auto row = std::span(d.starts).subspan(size_t(with.y) * size_t(width), size_t(width));
+      const CellSample without = sample_table(row, d.used[with.y], u);
+      ASSERT_EQ(with.x, without.cell) << width << " " << u;
+      ASSERT_EQ(with.offset_x, without.offset);
     }
   }
 }
