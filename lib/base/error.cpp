@@ -11,7 +11,10 @@ constexpr size_t most_printed = 20;  // hard-cases.md: all errors of a file in o
 
 std::string join(const std::vector<Diagnostic>& all) {
   std::string text;
-  for (size_t i = 0; i < std::min(all.size(), most_printed); ++i) text += (i ? "\n" : "") + to_string(all[i]);
+  for (size_t i = 0; i < std::min(all.size(), most_printed); ++i) {
+    if (i) text += '\n';
+    text += to_string(all[i]);
+  }
   if (all.size() > most_printed) text += fmt::format("\n... and {} more", all.size() - most_printed);
   return text;
 }
@@ -31,8 +34,11 @@ std::string to_string(const Diagnostic& d) {
     if (d.source_line.size() > longest && column > longest / 2) start = column - longest / 2;
     const std::string shown = start < d.source_line.size() ? d.source_line.substr(start, longest) : std::string();
     std::string pad;
-    for (size_t i = start; i < column; ++i)
-      pad += i < d.source_line.size() && d.source_line[i] == '\t' ? '\t' : ' ';
+    for (size_t i = start; i < column; ++i) {
+      const unsigned char c = i < d.source_line.size() ? static_cast<unsigned char>(d.source_line[i]) : ' ';
+      if ((c & 0xc0) == 0x80) continue;  // the later bytes of a UTF-8 character take no room
+      pad += c == '\t' ? '\t' : ' ';
+    }
     const size_t room = shown.size() > pad.size() ? shown.size() - pad.size() : 1;
     const std::string carets(std::clamp<size_t>(size_t(std::max(d.width, 1)), 1, room), '^');
     text += fmt::format("\n{:>5} | {}\n      | {}{}", number, shown, pad, carets);
