@@ -35,23 +35,27 @@ Color pixel_variance(const FilmPixel& pixel) {
 
 PictureError picture_error(const Film& film) {
   PictureError result;
-  if (film.pixels.empty() || film.pixels.front().samples < 2) return result;
   // Neighbouring pixels share geometry and so the size of their variance: the interval comes from whole blocks.
   constexpr int block = 16;
   std::vector<double> sums, counts;
   for (int by = 0; by < film.height; by += block)
     for (int bx = 0; bx < film.width; bx += block) {
-      double sum = 0;
+      double sum = 0, count = 0;
       const int y1 = std::min(by + block, film.height), x1 = std::min(bx + block, film.width);
       for (int y = by; y < y1; ++y)
         for (int x = bx; x < x1; ++x) {
           const FilmPixel& pixel = film.pixels[size_t(y) * size_t(film.width) + size_t(x)];
+          // Outside a crop, or after an interrupted first pass, there is nothing to be wrong.
+          if (pixel.samples < 2) continue;
+          ++count;
           const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
           for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (double(mean[c]) * mean[c] + 0.01);
         }
+      if (count == 0) continue;
       sums.push_back(sum / 3);
-      counts.push_back(double(y1 - by) * (x1 - bx));
+      counts.push_back(count);
     }
+  if (sums.empty()) return result;
   double total = 0, pixels = 0;
   for (size_t i = 0; i < sums.size(); ++i) total += sums[i], pixels += counts[i];
   const double mean = total / pixels;

@@ -44,7 +44,8 @@ Color pixel_mean(const FilmPixel& pixel);
 Color pixel_variance(const FilmPixel& pixel);
 
 /// Error of a picture: E = sqrt(mean over pixels and channels of variance / (value^2 + 0.01)), values at exposure 0,
-/// and the ends of its 95 % interval from the scatter over blocks of pixels. `known` is false below 2 replicates.
+/// and the ends of its 95 % interval from the scatter over blocks of pixels. Pixels with fewer than 2 samples do not
+/// count; `known` is false where there are no others.
 struct PictureError {
   bool known = false;
   double error = 0, low = 0, high = 0;

@@ -70,7 +70,8 @@ bool holds_look(const fs::path& path) {
   const std::string stem = is_path(name) ? fs::path(name).stem().string() : name;
   const std::string message =
       is_path(name) ? shown_name(name) + ": no such file" : "there is no look called " + shown_name(name);
-  std::string help = suggestion(stem, known);
+  std::string help = known.empty() ? "no looks were found: set SATEEN_HOME to the folder that holds looks/ and envmaps/"
+                                   : suggestion(stem, known);
   // Long names are mostly half remembered rather than mistyped.
   if (stem.size() >= 3 && nearest_name(stem, known).empty())
     for (const std::string& each : known)

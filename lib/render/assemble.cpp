@@ -35,7 +35,16 @@ std::string hash_mesh(const ControlMesh& cage) {
   hash_values(hash, cage.face_sizes);
   hash_values(hash, cage.position_indices);
   hash_values(hash, cage.uv_indices);
-  return hash.hex();
+  hash_values(hash, cage.holes);
+  for (const ControlMesh::Crease& crease : cage.creases) {
+    hash_values(hash, crease.vertices);
+    hash.add_bytes(&crease.sharpness, sizeof crease.sharpness);
+  }
+  for (const ControlMesh::Corner& corner : cage.corners) {
+    hash.add_bytes(&corner.vertex, sizeof corner.vertex);
+    hash.add_bytes(&corner.sharpness, sizeof corner.sharpness);
+  }
+  return hash.add(fmt::format("{} {} {}", int(cage.scheme), int(cage.boundary), int(cage.fvar_boundary))).hex();
 }
 
 struct Cloth {
@@ -84,6 +93,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   look.warp_angle_deg += settings.warp_angle_deg;
   report.look = look;
   report.look_hash = look_hash(look);
+  if (!look.back.empty()) report.look_hash = Hash().add(report.look_hash).add(look_hash(read_back(look))).hex();
 
   // Each part reports into fields of its own, the mesh alone into `warnings`.
   std::future<Cloth> cloth = std::async(std::launch::async, [&] { return build_cloth(settings, report); });

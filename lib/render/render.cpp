@@ -48,23 +48,26 @@ Window window_of(const RenderSettings& settings, const Film& film) {
   return {std::max(c.x0, 0), std::max(c.y0, 0), std::min(c.x1, film.width), std::min(c.y1, film.height)};
 }
 
-/// Adds `count` samples to every pixel of the window. Returns false when interrupted.
+/// Adds `count` samples to every pixel of the window; `tell` hears the share that is done. Returns false when
+/// interrupted.
 bool render_pass(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film, int count,
-                 RayCounts& rays, const std::atomic<bool>* interrupt) {
+                 RayCounts& rays, const std::atomic<bool>* interrupt, const std::function<void(double)>& tell) {
   const Window w = window_of(settings, film);
   const int across = (w.x1 - w.x0 + tile_size - 1) / tile_size, down = (w.y1 - w.y0 + tile_size - 1) / tile_size;
   std::mutex merging;
   std::atomic<bool> whole = true;
+  int tiles_done = 0;
   parallel_for(across * down, settings.threads, [&](int tile) {
-    if (interrupt && interrupt->load(std::memory_order_relaxed)) {
-      whole = false;
-      return;
-    }
     // Scratch is large and reused; nothing of it outlives a sample but the counts.
     static thread_local std::unique_ptr<PathScratch> scratch = std::make_unique<PathScratch>();
     scratch->counts = {};
     const int x0 = w.x0 + tile % across * tile_size, y0 = w.y0 + tile / across * tile_size;
-    for (int y = y0; y < std::min(y0 + tile_size, w.y1); ++y)
+    for (int y = y0; y < std::min(y0 + tile_size, w.y1); ++y) {
+      // Between rows, not tiles: late passes put hundreds of samples into a pixel, and a signal wants to be heard.
+      if (interrupt && interrupt->load(std::memory_order_relaxed)) {
+        whole = false;
+        break;
+      }
       for (int x = x0; x < std::min(x0 + tile_size, w.x1); ++x) {
         const size_t i = size_t(y) * size_t(film.width) + size_t(x);
         FilmPixel& pixel = film.pixels[i];
@@ -74,11 +77,13 @@ bool render_pass(const Scene& scene, const RenderSettings& settings, const Albed
                                   pixel.samples / replicates, *scratch),
                      albedo);
       }
+    }
     const std::lock_guard lock(merging);
     rays.camera += scratch->counts.camera;
     rays.shadow += scratch->counts.shadow;
     rays.bounce += scratch->counts.bounce;
     rays.non_finite += scratch->counts.non_finite;
+    tell(double(++tiles_done) / (across * down));
   });
   return whole;
 }
@@ -89,16 +94,17 @@ double samples_for_error(const RenderState& state, double target) {
   return state.samples * std::pow(state.error.high / target, 1 / 0.75);
 }
 
-void predict(RenderState& state, const StopRules& stop, double seconds_per_sample) {
+/// `done`: samples a pixel so far, with the share of the pass that is under way.
+void predict(RenderState& state, const StopRules& stop, double seconds_per_sample, double done) {
   double samples = stop.spp > 0 ? stop.spp : 1e18;
   if (stop.error > 0) {
     const double needed = samples_for_error(state, stop.error);
     if (needed > 0)
-      samples = std::min(samples, std::max(needed, double(state.samples)));
+      samples = std::min(samples, std::max(needed, done));
     else if (stop.spp <= 0)
       samples = 1e18;
   }
-  double left = samples < 1e17 ? (samples - state.samples) * seconds_per_sample : -1;
+  double left = samples < 1e17 ? (samples - done) * seconds_per_sample : -1;
   if (stop.seconds > 0) left = left < 0 ? stop.seconds - state.seconds : std::min(left, stop.seconds - state.seconds);
   state.seconds_left = left < 0 && samples > 1e17 ? -1 : std::max(left, 0.0);
   const double whole = state.seconds + state.seconds_left;
@@ -119,7 +125,16 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
   for (;;) {
     if (settings.stop.spp > 0) next = std::min(next, settings.stop.spp - state.samples);
     const double pass_start = now();
-    const bool whole = render_pass(scene, settings, albedo, film, next, result.rays, interrupt);
+    double told = pass_start;
+    const auto tell = [&](double share) {
+      const double time = now();
+      if (!observe || share >= 1 || time - told < 0.1) return;
+      told = time;
+      state.seconds = time - start;
+      predict(state, settings.stop, (time - pass_start) / (next * share), state.samples + next * share);
+      observe(state);
+    };
+    const bool whole = render_pass(scene, settings, albedo, film, next, result.rays, interrupt, tell);
     const double pass_seconds = now() - pass_start;
     if (!whole) {
       result.reason = StopReason::interrupted;
@@ -130,7 +145,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
     state.seconds = now() - start;
     const double per_sample = pass_seconds / next;
     if (state.samples % replicates == 0) state.error = picture_error(film);
-    predict(state, settings.stop, per_sample);
+    predict(state, settings.stop, per_sample, state.samples);
     if (observe) observe(state);
 
     if (settings.stop.error > 0 && state.error.known && state.samples >= 4 * replicates &&

@@ -28,9 +28,9 @@ struct RenderSettings {
   Crop crop;         ///< all zero: the whole picture
 };
 
-/// Told after every pass.
+/// Told after every pass, and about ten times a second within one; never by two threads at once.
 struct RenderState {
-  int samples = 0;          ///< per pixel so far
+  int samples = 0;          ///< per pixel, whole passes so far
   double seconds = 0, seconds_left = -1;  ///< left: -1 while unknown
   double fraction = 0;      ///< 0 to 1, never falls
   PictureError error;
@@ -48,7 +48,7 @@ struct RenderResult {
 };
 
 /// Renders into `film` pass by pass. Same scene, settings and film give the same bits on any number of threads. `interrupt`, where given, is looked at
-/// between tiles: the film then holds whole samples, some pixels more than others.
+/// between rows of pixels: the film then holds whole samples, some pixels more than others.
 RenderResult render(const Scene& scene, const RenderSettings& settings, Film& film,
                     const std::function<void(const RenderState&)>& observe = {},
                     const std::atomic<bool>* interrupt = nullptr);
