@@ -26,13 +26,17 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
   const FabricSampler sampler = strategy_sampler(settings.strategy);
   Color light(0), throughput(1);
   for (int bounce = 1; bounce <= settings.bounces; ++bounce) {
-    const Sequence sequence = pixel_sequence(seed, x, y, replicate, bounce);
+    // The numbers of the vertex that is left may also have served its direct light, which is added to this. Those of
+    // the vertex that is met must be others: its light is multiplied by what was drawn on the way to it.
+    const Sequence left = pixel_sequence(seed, x, y, replicate, bounce - 1);
+    const Sequence met = pixel_sequence(seed, x, y, replicate, bounce);
     FabricRandom u;
-    u.choice = draw(sequence, Dimension::table_view, index);
-    u.thread = draw2(sequence, Dimension::talk_thread, index);
-    u.direction = draw2(sequence, sampler == FabricSampler::table   ? Dimension::table
-                                  : sampler == FabricSampler::talk ? Dimension::talk
-                                                                   : Dimension::uniform, index);
+    u.choice = draw(left, Dimension::table_view, index);
+    u.thread = draw2(left, Dimension::talk_thread, index);
+    const Dimension used = sampler == FabricSampler::table  ? Dimension::table
+                           : sampler == FabricSampler::talk ? Dimension::talk
+                                                            : Dimension::uniform;
+    u.direction = draw2(left, used, index);
     const std::optional<Vec3> wi = sample(scratch.view, sampler, u);
     if (!wi) break;
     const BsdfValue value = evaluate(scratch.view, sampler, *wi);
@@ -40,7 +44,7 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
     throughput *= value.f_cos / value.pdf;
     if (bounce > roulette_after) {
       const float stay = std::min(max_component(throughput), 0.95f);
-      if (!(float(draw(sequence, Dimension::roulette, index)) < stay)) break;
+      if (!(float(draw(met, Dimension::roulette, index)) < stay)) break;
       throughput /= stay;
     }
     if (!(max_component(throughput) > 0)) break;
@@ -55,7 +59,7 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
     if (!hit) break;  // the environment was counted at the vertex before
     point = cloth_point(scene, *hit, direction);
     // Each layer of sheer cloth is passed with its gaps' probability.
-    double pass = point.fabric->gap > 0 ? draw(sequence, Dimension::gap, index) : 1;
+    double pass = point.fabric->gap > 0 ? draw(met, Dimension::gap, index) : 1;
     for (int layer = 0; hit && pass < double(point.fabric->gap) && layer < most_layers; ++layer) {
       pass /= double(point.fabric->gap);
       ray.origin = offset_origin(point.surface, direction);
@@ -68,7 +72,7 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
     throughput /= 1 - point.fabric->gap;
 
     prepare_view(*point.fabric, point.wo, sampler, scratch.view);
-    const LobeLight direct = direct_light(scene, point, scratch.view, settings, sequence, index, scratch.counts);
+    const LobeLight direct = direct_light(scene, point, scratch.view, settings, met, index, scratch.counts);
     if (keep(direct, scratch.counts)) light += throughput * direct.total();
   }
   return light;
