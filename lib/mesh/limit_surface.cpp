@@ -30,10 +30,6 @@ void silence_opensubdiv() {
   });
 }
 
-// Bfr's patch around an irregular vertex or face grows with the square of its valence: 1,000 take 1 to 3 s and
-// 130 MB, and beyond 65,025 corners it loses count (it keeps their square root in a byte).
-constexpr int most_corners = 2000;
-
 float power_of_two_near(float size) { return size > 0 ? std::exp2(std::ceil(std::log2(size))) : 1.0f; }
 
 Sdc::Options scheme_options(const ControlMesh& cage) {
@@ -117,9 +113,6 @@ ControlPoints control_points(const ControlMesh& cage) {
 std::unique_ptr<Far::TopologyRefiner> cage_topology(const ControlMesh& cage, const ControlPoints& points) {
   silence_opensubdiv();
   complaint.clear();
-  for (size_t i = 0; i < cage.face_sizes.size(); ++i)
-    if (cage.face_sizes[i] > most_corners)
-      throw Refusal{fmt::format("face {} has {} corners, more than {}", i, cage.face_sizes[i], most_corners)};
   Far::TopologyDescriptor d;
   d.numVertices = int(cage.positions.size());
   d.numFaces = int(cage.face_sizes.size());
@@ -161,11 +154,6 @@ std::unique_ptr<Far::TopologyRefiner> cage_topology(const ControlMesh& cage, con
   std::unique_ptr<Far::TopologyRefiner> refiner(
       Factory::Create(d, Factory::Options(scheme_type(cage.scheme), scheme_options(cage))));
   if (!refiner) throw Refusal{complaint.empty() ? "no reason given" : complaint};
-  const Far::TopologyLevel& base = refiner->GetLevel(0);
-  for (int i = 0; i < base.GetNumVertices(); ++i)
-    if (base.GetVertexFaces(i).size() > most_corners)
-      throw Refusal{fmt::format("{} faces meet at vertex {}, more than {}", base.GetVertexFaces(i).size(), i,
-                                most_corners)};
   return refiner;
 }
 

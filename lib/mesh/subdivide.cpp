@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "mesh/face_points.h"
 #include "mesh/limit_surface.h"
+#include "mesh/uniform_refinement.h"
 #include "mesh/unrefined.h"
 #include "mesh/vertex_values.h"
 
@@ -128,6 +129,7 @@ void Evaluation::run(int threads) {
 Mesh refine(const ControlMesh& cage, int level, int threads) {
   const ControlPoints points = control_points(cage);
   const auto refiner = cage_topology(cage, points);
+  if (needs_uniform_refinement(refiner->GetLevel(0))) return uniformly_refined(*refiner, points, level);
   const LimitSurface surface(*refiner, points, level);
   std::vector<bool> has_limit(cage.face_sizes.size());
   for (size_t face = 0; face < has_limit.size(); ++face) has_limit[face] = surface.has_limit(int(face));

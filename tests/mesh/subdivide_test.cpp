@@ -117,6 +117,52 @@ TEST(Subdivide, PointsAroundAnExtraordinaryVertexDoNotDependOnTheLevel) {
   }
 }
 
+TEST(Subdivide, UniformRefinementAgreesWithTheFaceByFaceEvaluation) {
+  // A vertex of two faces sends the whole cage through Far's uniform refinement: a closed pillow beside the sheet.
+  const auto wave = [](float x, float y) { return Vec3(x, y, std::sin(x) + 0.4f * std::cos(1.3f * y)); };
+  ControlMesh cage = grid_cage(7, 6, wave, [](float x, float y) { return Vec2(x + 0.2f * y, y); });
+  // The last quad becomes two triangles, and one before it a hole.
+  cage.face_sizes.back() = 3;
+  cage.face_sizes.push_back(3);
+  for (const int k : {0, 2}) {
+    cage.position_indices.push_back(cage.position_indices[41 * 4 + size_t(k)]);
+    cage.uv_indices.push_back(cage.position_indices.back());
+  }
+  std::swap(cage.position_indices[41 * 4 + 3], cage.position_indices[41 * 4 + 5]);
+  std::swap(cage.uv_indices[41 * 4 + 3], cage.uv_indices[41 * 4 + 5]);
+  std::swap(cage.position_indices[41 * 4 + 3], cage.position_indices[41 * 4 + 4]);
+  std::swap(cage.uv_indices[41 * 4 + 3], cage.uv_indices[41 * 4 + 4]);
+  cage.holes = {17};
+  ControlMesh with_pillow = cage;
+  for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) with_pillow.positions.push_back(Vec3(p.x, p.y, 1));
+  with_pillow.face_sizes.insert(with_pillow.face_sizes.end(), {4, 4});
+  for (const int k : {56, 57, 58, 59, 59, 58, 57, 56}) {
+    with_pillow.position_indices.push_back(k);
+    with_pillow.uv_indices.push_back(k - 56);
+  }
+  for (int level = 1; level <= 4; ++level) {
+    const Mesh one = subdivide(cage, level), other = subdivide(with_pillow, level);
+    EXPECT_NE(one.positions.size(), other.positions.size());
+    double position = 0, normal = 0, uv = 0, warp = 0;
+    for (size_t i = 0; i < one.positions.size(); ++i) {
+      size_t nearest = 0;
+      for (size_t k = 0; k < other.positions.size(); ++k)
+        if ((other.positions[k] - one.positions[i]).length2() < (other.positions[nearest] - one.positions[i]).length2())
+          nearest = k;
+      position = std::max(position, double((other.positions[nearest] - one.positions[i]).length()));
+      normal = std::max(normal, double((other.normals[nearest] - one.normals[i]).length()));
+      uv = std::max(uv, double((other.uvs[nearest] - one.uvs[i]).length()));
+      warp = std::max(warp, double((other.dpdu[nearest] - one.dpdu[i]).length()));
+    }
+    EXPECT_LT(position, 5e-6) << level;
+    EXPECT_LT(uv, 1e-5) << level;
+    if (level >= 3) {
+      EXPECT_LT(warp, 0.2) << level << ": differences of first order on borders";
+    }
+    EXPECT_LT(normal, 2e-3) << level << ": Bfr's tangent plane in the middle of a triangle is off by 0.06 degrees";
+  }
+}
+
 TEST(Subdivide, UvSeamsAreWatertightAndSplit) {
   // A tube of 12 by 3 quads, closed, whose UVs run from 0 to 12 around.
   ControlMesh cage;
