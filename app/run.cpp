@@ -19,6 +19,9 @@ namespace sateen::app {
 const std::vector<Subcommand>& subcommands() {
   static const std::vector<Subcommand> all{
       {"render", "one picture of a cloth", run_render},
+      {"look", "looks: list, check, resolve, diff, schema", run_look},
+      {"lobe", "draws and prints how a look scatters light", run_lobe},
+      {"env", "lights: list, inspect, make", run_env},
   };
   return all;
 }
@@ -61,6 +64,15 @@ int dispatch(const std::vector<std::string>& words) {
   return run_named(subcommands(), "sateen", words);
 }
 }  // namespace
+
+int run_group(const std::string& prefix, const std::string& summary, const std::vector<Subcommand>& table,
+              const std::vector<std::string>& words) {
+  if (!words.empty() && words[0] != "--help" && words[0] != "-h") return run_named(table, prefix, words);
+  std::string text = summary + "\n\n";
+  for (const Subcommand& each : table) text += fmt::format("  {} {:<9} {}\n", prefix, each.name, each.summary);
+  print_result(text + fmt::format("\n{} COMMAND --help shows flags and examples.\n", prefix));
+  return done;
+}
 
 int run_named(const std::vector<Subcommand>& table, const std::string& prefix, const std::vector<std::string>& words) {
   std::vector<std::string> names;

@@ -1,0 +1,36 @@
+#include "measured_look.h"
+
+#include <memory>
+
+#include "base/parallel.h"
+#include "image/color.h"
+
+namespace sateen::app {
+
+namespace {
+// The linear space of a colour space with a curve.
+std::string linear_space(const std::string& space) {
+  if (space == "srgb_texture") return "lin_rec709";
+  if (space == "acescct") return "acescg";
+  return space;
+}
+}  // namespace
+
+MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio, const std::string& working) {
+  MeasuredLook measured;
+  measured.look = look;
+  measured.space = working.empty() ? linear_space(look.color_space) : working;
+  std::unique_ptr<ColorManager> colors;  // made only where a colour needs it: reading a config takes its time
+  const ToWorking convert = [&](const Color& value, const std::string& space) {
+    if (space == measured.space) return same_space(value, space);
+    if (!colors) colors = std::make_unique<ColorManager>(ocio, measured.space);
+    return colors->to_working(value, space);
+  };
+  FabricParts parts;
+  parts.table = with_table;
+  parts.threads = thread_count(0);
+  measured.fabric = compile_fabric(look, convert, parts);
+  return measured;
+}
+
+}  // namespace sateen::app
