@@ -61,9 +61,9 @@ struct Estimator {
     return sample(view, sampler, u);
   }
 
-  EnvironmentSample environment_direction(EnvironmentDensity density, std::uint32_t index) const {
+  EnvironmentPick environment_direction(EnvironmentDensity density, std::uint32_t index) const {
     const std::array<double, 2> u = draw2(sequence, Dimension::environment, index);
-    return sample_environment(scene.environment, density, u[0], u[1]);
+    return pick_environment(scene.environment, density, u[0], u[1]);
   }
 
   LobeLight by_fabric(FabricSampler sampler, std::uint32_t index) const {
@@ -75,27 +75,35 @@ struct Estimator {
   }
 
   LobeLight by_environment(std::uint32_t index) const {
-    const EnvironmentSample s = environment_direction(EnvironmentDensity::radiance, index);
-    if (!(s.pdf > 0)) return {};
-    const Vec3 wi = point.frame.to_local(s.direction);
+    const EnvironmentPick pick = environment_direction(EnvironmentDensity::radiance, index);
+    if (!pick.texel) return {};
+    const Vec3 wi = point.frame.to_local(pick.direction);
     if (!(wi.z > 0)) return {};
-    return contribution(wi, s.direction, s.radiance, 1 / s.pdf);
+    return contribution(wi, pick.direction, pick.texel->radiance, 1 / pick.texel->pdf_radiance);
   }
 
-  /// One direction of each kind, balance heuristic: each weighs 1 / (sum of both densities).
+  /// One direction of each kind, balance heuristic: each weighs 1 / (sum of both densities). Both directions are drawn
+  /// before either texel is read, and each texel is asked for well before it is needed.
   LobeLight by_both(FabricSampler sampler, EnvironmentDensity density, std::uint32_t index) const {
-    LobeLight sum;
-    if (const std::optional<Vec3> wi = fabric_direction(sampler, index)) {
-      const Vec3 world = point.frame.to_world(*wi);
-      const Environment::Texel& texel = environment_texel(scene.environment, world);
-      const float light = density == EnvironmentDensity::radiance ? texel.pdf_radiance : texel.pdf_compensated;
-      const float all = pdf(view, sampler, *wi) + light;
-      add(sum, contribution(*wi, world, texel.radiance, all > 0 ? 1 / all : 0));
+    const EnvironmentPick pick = environment_direction(density, index);
+    if (pick.texel) prefetch_texel(pick.texel);
+    const std::optional<Vec3> wi = fabric_direction(sampler, index);
+    Vec3 world;
+    const Environment::Texel* texel = nullptr;
+    if (wi) {
+      world = point.frame.to_world(*wi);
+      texel = &environment_texel(scene.environment, world);
+      prefetch_texel(texel);
     }
-    const EnvironmentSample s = environment_direction(density, index);
-    if (s.pdf > 0)
-      if (const Vec3 wi = point.frame.to_local(s.direction); wi.z > 0)
-        add(sum, contribution(wi, s.direction, s.radiance, 1 / (pdf(view, sampler, wi) + s.pdf)));
+    LobeLight sum;
+    if (pick.texel)
+      if (const Vec3 local = point.frame.to_local(pick.direction); local.z > 0)
+        add(sum, contribution(local, pick.direction, pick.texel->radiance,
+                              1 / (pdf(view, sampler, local) + texel_pdf(*pick.texel, density))));
+    if (wi) {
+      const float all = pdf(view, sampler, *wi) + texel_pdf(*texel, density);
+      add(sum, contribution(*wi, world, texel->radiance, all > 0 ? 1 / all : 0));
+    }
     return sum;
   }
 
@@ -105,39 +113,46 @@ struct Estimator {
   LobeLight by_resampling(int count, std::uint32_t index) const {
     struct Candidate {
       Vec3 wi, world;
-      Color radiance;
+      const Environment::Texel* texel;
+      float running;  ///< sum of the weights up to this one
       float target;
     };
+    // Filled as far as candidates are found; all directions come first, so that their texels arrive together.
     std::array<Candidate, 2 * most_candidates> kept;
-    std::array<float, 2 * most_candidates> running;
     int n = 0;
-    float sum = 0;
-    const auto offer = [&](const Vec3& wi, const Vec3& world, const Color& radiance, float p_table, float p_light) {
-      const float target = p_table * brightness(radiance);
-      if (!(target > 0)) return;
-      sum += target / (float(count) * (p_table + p_light));
-      kept[n] = {wi, world, radiance, target};
-      running[n++] = sum;
+    const auto offer = [&](const Vec3& wi, const Vec3& world, const Environment::Texel* texel) {
+      prefetch_texel(texel);
+      Candidate& c = kept[size_t(n++)];
+      c.wi = wi;
+      c.world = world;
+      c.texel = texel;
     };
+    const std::uint32_t first = index * std::uint32_t(count);
     for (int j = 0; j < count; ++j) {
-      const std::optional<Vec3> wi = fabric_direction(FabricSampler::table, index * std::uint32_t(count) + std::uint32_t(j));
-      const Vec3 world = point.frame.to_world(*wi);
-      const Environment::Texel& texel = environment_texel(scene.environment, world);
-      offer(*wi, world, texel.radiance, table_pdf(view.table, *wi), texel.pdf_compensated);
+      const EnvironmentPick pick = environment_direction(EnvironmentDensity::compensated, first + std::uint32_t(j));
+      if (!pick.texel) continue;
+      if (const Vec3 wi = point.frame.to_local(pick.direction); wi.z > 0) offer(wi, pick.direction, pick.texel);
     }
     for (int j = 0; j < count; ++j) {
-      const EnvironmentSample s =
-          environment_direction(EnvironmentDensity::compensated, index * std::uint32_t(count) + std::uint32_t(j));
-      if (!(s.pdf > 0)) continue;
-      const Vec3 wi = point.frame.to_local(s.direction);
-      if (wi.z > 0) offer(wi, s.direction, s.radiance, table_pdf(view.table, wi), s.pdf);
+      const Vec3 wi = *fabric_direction(FabricSampler::table, first + std::uint32_t(j));
+      const Vec3 world = point.frame.to_world(wi);
+      offer(wi, world, &environment_texel(scene.environment, world));
     }
-    if (n == 0) return {};
+    float sum = 0;
+    for (int i = 0; i < n; ++i) {
+      Candidate& c = kept[size_t(i)];
+      const float p_table = table_pdf(view.table, c.wi);
+      c.target = p_table * brightness(c.texel->radiance);
+      const float both = p_table + c.texel->pdf_compensated;
+      if (c.target > 0) sum += c.target / (float(count) * both);
+      c.running = sum;
+    }
+    if (!(sum > 0)) return {};
     const float place = float(draw(sequence, Dimension::choice, index)) * sum;
     int chosen = 0;
-    while (chosen < n - 1 && running[chosen] <= place) ++chosen;
-    const Candidate& c = kept[chosen];
-    return contribution(c.wi, c.world, c.radiance, sum / c.target);
+    while (chosen < n - 1 && kept[size_t(chosen)].running <= place) ++chosen;
+    const Candidate& c = kept[size_t(chosen)];
+    return c.target > 0 ? contribution(c.wi, c.world, c.texel->radiance, sum / c.target) : LobeLight();
   }
 };
 
@@ -150,6 +165,7 @@ float transmittance(const Scene& scene, const ClothPoint& point, const Vec3& dir
   Ray ray;
   ray.origin = offset_origin(point.surface, direction);
   ray.direction = direction;
+  if (counts.log) counts.log->push_back(ray);
   if (!scene.has_gaps) return scene.rays->occluded(ray) ? 0.0f : 1.0f;
 
   float passed = 1;

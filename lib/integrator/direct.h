@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "integrator/strategy.h"
 #include "sampling/sampler.h"
 #include "scene/scene.h"
@@ -14,6 +16,7 @@ struct LobeLight {
 
 /// Counts of one thread; merged at the end of a pass.
 struct RayCounts {
+  std::vector<Ray>* log = nullptr;  ///< where given, every shadow ray is kept here (the benchmark traces them bare)
   std::int64_t camera = 0, shadow = 0, bounce = 0;
   std::int64_t non_finite = 0;  ///< estimates that were not finite and were dropped: a fault, reported
 };

@@ -45,6 +45,16 @@ double scrambled(std::uint32_t digits, std::uint32_t seed) {
   return double(reverse_bits(permute_upwards(digits, seed))) * 0x1p-32;
 }
 
+// One full hash a dimension; the shuffle and the two scramblings get seeds that are odd multiples of it, which the
+// permutation, itself a hash, tells apart.
+struct Seeds {
+  std::uint32_t shuffle, first, second;
+};
+Seeds seeds(Sequence sequence, Dimension dimension) {
+  const std::uint32_t seed = combine(sequence.seed, std::uint32_t(dimension));
+  return {seed, seed * 0x9e3779b1u + 0x7f4a7c15u, seed * 0x85ebca77u + 0x165667b1u};
+}
+
 }  // namespace
 
 Sequence pixel_sequence(std::uint32_t seed, int x, int y, int replicate, int bounce) {
@@ -56,15 +66,15 @@ Sequence pixel_sequence(std::uint32_t seed, int x, int y, int replicate, int bou
 }
 
 double draw(Sequence sequence, Dimension dimension, std::uint32_t index) {
-  const std::uint32_t seed = combine(sequence.seed, std::uint32_t(dimension));
-  const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), combine(seed, 1)));
-  return scrambled(shuffled, combine(seed, 2));
+  const Seeds s = seeds(sequence, dimension);
+  const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), s.shuffle));
+  return scrambled(shuffled, s.first);
 }
 
 std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_t index) {
-  const std::uint32_t seed = combine(sequence.seed, std::uint32_t(dimension));
-  const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), combine(seed, 1)));
-  return {scrambled(shuffled, combine(seed, 2)), scrambled(pascal(shuffled), combine(seed, 3))};
+  const Seeds s = seeds(sequence, dimension);
+  const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), s.shuffle));
+  return {scrambled(shuffled, s.first), scrambled(pascal(shuffled), s.second)};
 }
 
 }  // namespace sateen

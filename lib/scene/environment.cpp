@@ -124,7 +124,7 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
   return e;
 }
 
-EnvironmentSample sample_environment(const Environment& e, EnvironmentDensity density, double u0, double u1) {
+EnvironmentPick pick_environment(const Environment& e, EnvironmentDensity density, double u0, double u1) {
   const bool compensated = density == EnvironmentDensity::compensated && drawable(e.by_compensated);
   const CellSample2D cell = sample_cell(compensated ? e.by_compensated : e.by_radiance, u0, u1);
   if (cell.probability == 0) return {};
@@ -133,9 +133,14 @@ EnvironmentSample sample_environment(const Environment& e, EnvironmentDensity de
   const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
   const double offset = std::clamp(cell.offset_x, e.edge_x, 1 - e.edge_x);
   const SineCosine longitude = fast_sincos_turns((cell.x + offset) / e.width - 0.5 + e.rotation_turns);
-  const Environment::Texel& texel = e.texels[size_t(cell.y) * size_t(e.width) + cell.x];
-  return {Vec3(float(sine * longitude.sine), float(cosine), float(-sine * longitude.cosine)), texel.radiance,
-          compensated ? texel.pdf_compensated : texel.pdf_radiance};
+  return {Vec3(float(sine * longitude.sine), float(cosine), float(-sine * longitude.cosine)),
+          &e.texels[size_t(cell.y) * size_t(e.width) + cell.x]};
+}
+
+EnvironmentSample sample_environment(const Environment& e, EnvironmentDensity density, double u0, double u1) {
+  const EnvironmentPick pick = pick_environment(e, density, u0, u1);
+  if (!pick.texel) return {};
+  return {pick.direction, pick.texel->radiance, texel_pdf(*pick.texel, density)};
 }
 
 Color environment_backdrop(const Environment& e, const Vec3& direction) {

@@ -81,19 +81,35 @@ Environment build_environment(Image map, const EnvironmentOptions& options = {})
 /// Texel that a direction (of any length) falls into; a NaN gives the first.
 inline const Environment::Texel& environment_texel(const Environment& environment, const Vec3& direction);
 
+inline float texel_pdf(const Environment::Texel& texel, EnvironmentDensity density) {
+  return density == EnvironmentDensity::radiance ? texel.pdf_radiance : texel.pdf_compensated;
+}
+
 inline Color environment_radiance(const Environment& environment, const Vec3& direction) {
   return environment_texel(environment, direction).radiance;
 }
 
 inline float environment_pdf(const Environment& environment, EnvironmentDensity density, const Vec3& direction) {
-  const Environment::Texel& texel = environment_texel(environment, direction);
-  return density == EnvironmentDensity::radiance ? texel.pdf_radiance : texel.pdf_compensated;
+  return texel_pdf(environment_texel(environment, direction), density);
 }
 
 /// Draws a direction by inversion: u1 the row, u0 the column, what is left of both the place in the texel, uniform in
 /// solid angle. Looking up the direction returns the texel drawn (tested), hence the same radiance and pdf.
 EnvironmentSample sample_environment(const Environment& environment, EnvironmentDensity density, double u0,
                                      double u1);
+
+/// The same without touching the texel: on a large map that read is a cache miss, which a caller hides by
+/// asking for it (prefetch_texel) and doing something else first. `texel` is null when the map is black.
+struct EnvironmentPick {
+  Vec3 direction{0, 1, 0};
+  const Environment::Texel* texel = nullptr;
+};
+EnvironmentPick pick_environment(const Environment& environment, EnvironmentDensity density, double u0, double u1);
+
+inline void prefetch_texel(const Environment::Texel* texel) {
+  __builtin_prefetch(texel);
+  __builtin_prefetch(reinterpret_cast<const char*>(texel) + sizeof(Environment::Texel) - 1);
+}
 
 /// Bilinear look-up between texel centres, across the seam and over the poles, for seeing the map behind the cloth.
 Color environment_backdrop(const Environment& environment, const Vec3& direction);
