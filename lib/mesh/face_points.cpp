@@ -145,7 +145,8 @@ void FacePoints::set_polygon(const Numbering& numbering, size_t face) {
       g(m, b) = spoke(k, b);
       g(b, m) = spoke(previous, b);
       add(g(m, b), o.x + 0.5f, o.y + float(b) * step, middle);
-      for (int a = 1; a < m; ++a) add(g(a, b) = inside(k, a, b), o.x + float(a) * step, o.y + float(b) * step, middle);
+      for (int a = 1; a < m; ++a)
+        add(g(a, b) = inside(k, a, b), o.x + float(a) * step, o.y + float(b) * step, middle);
     }
     for (int b = 0; b < m; ++b)
       for (int a = 0; a < m; ++a) quads.push_back({g(a, b), g(a + 1, b), g(a + 1, b + 1), g(a, b + 1)});

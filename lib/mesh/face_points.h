@@ -23,7 +23,9 @@ struct FacePoints {
   void set_face(const Numbering& numbering, size_t face);
 
  private:
-  void add(std::uint32_t vertex, float s, float t, const Vec2& towards) { points.push_back({vertex, {s, t}, towards}); }
+  void add(std::uint32_t vertex, float s, float t, const Vec2& towards) {
+    points.push_back({vertex, {s, t}, towards});
+  }
   void set_quad(const Numbering& n, size_t face);
   void set_triangle(const Numbering& n, size_t face);
   void set_polygon(const Numbering& n, size_t face);

@@ -30,20 +30,28 @@ void silence_opensubdiv() {
   });
 }
 
-float power_of_two_near(float size) { return size > 0 ? std::exp2(std::ceil(std::log2(size))) : 1.0f; }
+float power_of_two_near(float size) {
+  return size > 0 ? std::exp2(std::ceil(std::log2(size))) : 1.0f;
+}
 
 Sdc::Options scheme_options(const ControlMesh& cage) {
   using O = Sdc::Options;
   O options;
   switch (cage.boundary) {
-    case ControlMesh::Boundary::none: options.SetVtxBoundaryInterpolation(O::VTX_BOUNDARY_NONE); break;
-    case ControlMesh::Boundary::edge_only: options.SetVtxBoundaryInterpolation(O::VTX_BOUNDARY_EDGE_ONLY); break;
+    case ControlMesh::Boundary::none:
+      options.SetVtxBoundaryInterpolation(O::VTX_BOUNDARY_NONE);
+      break;
+    case ControlMesh::Boundary::edge_only:
+      options.SetVtxBoundaryInterpolation(O::VTX_BOUNDARY_EDGE_ONLY);
+      break;
     case ControlMesh::Boundary::edge_and_corner:
       options.SetVtxBoundaryInterpolation(O::VTX_BOUNDARY_EDGE_AND_CORNER);
       break;
   }
   switch (cage.fvar_boundary) {
-    case ControlMesh::FvarBoundary::none: options.SetFVarLinearInterpolation(O::FVAR_LINEAR_NONE); break;
+    case ControlMesh::FvarBoundary::none:
+      options.SetFVarLinearInterpolation(O::FVAR_LINEAR_NONE);
+      break;
     case ControlMesh::FvarBoundary::corners_only:
       options.SetFVarLinearInterpolation(O::FVAR_LINEAR_CORNERS_ONLY);
       break;
@@ -53,17 +61,24 @@ Sdc::Options scheme_options(const ControlMesh& cage) {
     case ControlMesh::FvarBoundary::corners_plus2:
       options.SetFVarLinearInterpolation(O::FVAR_LINEAR_CORNERS_PLUS2);
       break;
-    case ControlMesh::FvarBoundary::boundaries: options.SetFVarLinearInterpolation(O::FVAR_LINEAR_BOUNDARIES); break;
-    case ControlMesh::FvarBoundary::all: options.SetFVarLinearInterpolation(O::FVAR_LINEAR_ALL); break;
+    case ControlMesh::FvarBoundary::boundaries:
+      options.SetFVarLinearInterpolation(O::FVAR_LINEAR_BOUNDARIES);
+      break;
+    case ControlMesh::FvarBoundary::all:
+      options.SetFVarLinearInterpolation(O::FVAR_LINEAR_ALL);
+      break;
   }
   return options;
 }
 
 Sdc::SchemeType scheme_type(ControlMesh::Scheme scheme) {
   switch (scheme) {
-    case ControlMesh::Scheme::loop: return Sdc::SCHEME_LOOP;
-    case ControlMesh::Scheme::bilinear: return Sdc::SCHEME_BILINEAR;
-    case ControlMesh::Scheme::catmull_clark: break;
+    case ControlMesh::Scheme::loop:
+      return Sdc::SCHEME_LOOP;
+    case ControlMesh::Scheme::bilinear:
+      return Sdc::SCHEME_BILINEAR;
+    case ControlMesh::Scheme::catmull_clark:
+      break;
   }
   return Sdc::SCHEME_CATMARK;
 }
@@ -183,7 +198,9 @@ struct LimitSurface::State {
 LimitSurface::LimitSurface(const Far::TopologyRefiner& refiner, const ControlPoints& points, int level)
     : state_(std::make_unique<State>(refiner, points, level)) {}
 LimitSurface::~LimitSurface() = default;
-bool LimitSurface::has_limit(int face) const { return state_->factory.FaceHasLimitSurface(face); }
+bool LimitSurface::has_limit(int face) const {
+  return state_->factory.FaceHasLimitSurface(face);
+}
 
 struct LimitSurface::Patch::State {
   const LimitSurface::State& surface;

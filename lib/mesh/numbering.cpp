@@ -168,7 +168,8 @@ Numbering number_vertices(const TopologyLevel& cage, int level, bool triangles, 
   out.has_limit = std::move(has_limit);
   out.face_corner.resize(size_t(cage.GetNumFaces()) + 1);
   for (int face = 0; face < cage.GetNumFaces(); ++face)
-    out.face_corner[size_t(face) + 1] = out.face_corner[size_t(face)] + std::uint32_t(cage.GetFaceVertices(face).size());
+    out.face_corner[size_t(face) + 1] =
+        out.face_corner[size_t(face)] + std::uint32_t(cage.GetFaceVertices(face).size());
   Numberer numberer(cage, has_uvs, mirrored, out);
   numberer.number_corners();
   numberer.number_edges();

@@ -9,9 +9,9 @@
 
 namespace sateen {
 
-/// Which vertex of the refined mesh each sample of each cage face writes to. A cage edge has segments - 1 inner points;
-/// edges on which values jump (UV seams, sharp and non-manifold edges) have a set of points for each face, equal
-/// in position: those are listed in `copies`.
+/// Which vertex of the refined mesh each sample of each cage face writes to. A cage edge has segments - 1 inner
+/// points; edges on which values jump (UV seams, sharp and non-manifold edges) have a set of points for each face,
+/// equal in position: those are listed in `copies`.
 struct Numbering {
   int segments = 1;                          ///< 2^level pieces a cage edge
   bool triangles = false;                    ///< Loop: triangular faces and pieces
@@ -23,8 +23,10 @@ struct Numbering {
   std::vector<std::uint32_t> face_quad;      ///< first quad of each face, and one past the last
   std::vector<bool> has_limit;               ///< false: a hole, or without a limit surface
   std::uint32_t vertices = 0;
-  struct Copy { std::uint32_t to, from, count; };
-  std::vector<Copy> copies;                  ///< positions to be made equal, in order
+  struct Copy {
+    std::uint32_t to, from, count;
+  };
+  std::vector<Copy> copies;  ///< positions to be made equal, in order
 
   int size(size_t face) const { return int(face_corner[face + 1] - face_corner[face]); }
   /// Inner point k (1 to segments - 1) of the edge that leaves the given corner.

@@ -50,7 +50,11 @@ class Reader {
   int file_faces_ = 0;
   std::vector<int> face_numbers_;  // filled from the first dropped face on
   std::vector<int> bad_uvs_;
-  struct Forward { std::string_view word; int index; bool is_uv; };
+  struct Forward {
+    std::string_view word;
+    int index;
+    bool is_uv;
+  };
   std::vector<Forward> forward_;  // positive indices beyond what had been read when they were met
   Count repeated_, unknown_, bad_uv_, mixed_uv_;
 };
@@ -272,7 +276,9 @@ ControlMesh Reader::read() {
 
 }  // namespace
 
-ControlMesh parse_obj(std::string_view text, const std::string& name) { return Reader(text, name).read(); }
+ControlMesh parse_obj(std::string_view text, const std::string& name) {
+  return Reader(text, name).read();
+}
 
 ControlMesh read_obj(const std::filesystem::path& path) {
   constexpr std::uint64_t limit = std::uint64_t(16) << 30;

@@ -12,11 +12,11 @@ namespace sateen {
 ///
 /// Refused, as one InputError with file:line:column of every error (at most 100 are looked for): numbers that do not
 /// parse, are not finite or reach 1e15, an index 0 or out of range, a face of fewer than 3 corners, a logical line
-/// above 1 MiB, a file without a face. Mended with a counted warning: faces that use a vertex twice, texture coordinates
-/// that are not finite (their faces lose their UVs), tags that are unknown or malformed.
+/// above 1 MiB, a file without a face. Mended with a counted warning: faces that use a vertex twice, texture
+/// coordinates that are not finite (their faces lose their UVs), tags that are unknown or malformed.
 ///
 /// Why not tinyobjloader: it stops at 255 corners a face, tells no place, takes indices out of range and turns 1e999
-/// into Inf. Speed: see tests/mesh/mesh_speed_test.cpp.
+/// into Inf. About 170 to 300 MB/s; tests/scene/million_triangles_test.cpp holds it above 50.
 ControlMesh read_obj(const std::filesystem::path& path);
 ControlMesh parse_obj(std::string_view text, const std::string& name);
 

@@ -93,8 +93,7 @@ namespace {
 // The last of equal edges or vertices counts, as in OpenSubdiv; groups in a file often repeat all tags.
 void drop_duplicates(ControlMesh& mesh) {
   std::map<std::pair<int, int>, float> edges;
-  for (const ControlMesh::Crease& c : mesh.creases)
-    edges[std::minmax(c.vertices[0], c.vertices[1])] = c.sharpness;
+  for (const ControlMesh::Crease& c : mesh.creases) edges[std::minmax(c.vertices[0], c.vertices[1])] = c.sharpness;
   mesh.creases.clear();
   for (const auto& [edge, sharpness] : edges)
     if (sharpness > 0) mesh.creases.push_back({{edge.first, edge.second}, sharpness});
@@ -119,8 +118,8 @@ void Tags::apply(Text& text, const std::vector<int>& face_numbers, int file_face
       if (tag.integers[0] >= 0 && size_t(tag.integers[0]) < choices.size())
         field = choices[size_t(tag.integers[0])];
       else
-        text.error_anywhere(tag.integer_words[0], fmt::format("{} is {}, expected 0 to {}", tag.name,
-                                                              tag.integers[0], choices.size() - 1));
+        text.error_anywhere(tag.integer_words[0],
+                            fmt::format("{} is {}, expected 0 to {}", tag.name, tag.integers[0], choices.size() - 1));
     };
     if (tag.name == "crease") {
       apply_edges(text, tag, mesh);

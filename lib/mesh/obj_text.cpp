@@ -7,7 +7,9 @@ namespace sateen::obj {
 
 namespace {
 // A backslash directly before a line's end is white space of the logical line, and so is the end itself.
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
 }  // namespace
 
 Text::Text(std::string_view text, std::string name) : name_(std::move(name)) {
@@ -58,7 +60,9 @@ std::string_view Text::next_word() {
   return {start, size_t(p - start)};
 }
 
-int Text::line_of(const char* place) const { return line_ + int(std::count(line_begin_, place, '\n')); }
+int Text::line_of(const char* place) const {
+  return line_ + int(std::count(line_begin_, place, '\n'));
+}
 
 void Text::error(std::string_view word, std::string message, std::string help) {
   add(word, line_of(word.data()), std::move(message), std::move(help));

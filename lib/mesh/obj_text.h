@@ -1,6 +1,6 @@
 #pragma once
-#include <cmath>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>

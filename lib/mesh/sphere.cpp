@@ -28,8 +28,9 @@ Vec3d pattern(const Vec3d& d, double pole) {
 }
 
 /// Control points of a Catmull-Clark surface of quads whose limit points are `targets`. Inside, the limit point of a
-/// vertex of valence n is (n^2 C + 4 sum of edge neighbours + sum of the quads' far corners) / (n (n + 5)) [Halstead et
-/// al. 1993]; on a border (4 C + both neighbours) / 6. Moving each control point by what its limit misses converges.
+/// vertex of valence n is (n^2 C + 4 sum of edge neighbours + sum of the quads' far corners) / (n (n + 5)) [Halstead
+/// et al. 1993]; on a border (4 C + both neighbours) / 6. Moving each control point by what its limit misses
+/// converges.
 std::vector<Vec3d> controls_for_limit(const std::vector<int>& quads, const std::vector<Vec3d>& targets) {
   std::map<std::pair<int, int>, int> sides;
   std::vector<double> valence(targets.size(), 0);
@@ -108,7 +109,8 @@ ControlMesh sphere() {
   for (const Vec3d& c : controls_for_limit(mesh.position_indices, targets))
     mesh.positions.push_back(Vec3(float(c.x), float(c.y + radius), float(c.z)));
   // The UVs are smooth too: without this their derivatives are off by a quarter around the cube's corners.
-  for (const Vec3d& c : controls_for_limit(mesh.uv_indices, patterns)) mesh.uvs.push_back(Vec2(float(c.x), float(c.y)));
+  for (const Vec3d& c : controls_for_limit(mesh.uv_indices, patterns))
+    mesh.uvs.push_back(Vec2(float(c.x), float(c.y)));
   return mesh;
 }
 

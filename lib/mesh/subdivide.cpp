@@ -49,7 +49,10 @@ void drop_folded_warp(SurfaceSample& sample, bool mirrored) {
     sample.dpdu = sample.dpdv = Vec3(0, 0, 0);
 }
 
-struct BorderSample { std::uint32_t vertex; SurfaceSample sample; };
+struct BorderSample {
+  std::uint32_t vertex;
+  SurfaceSample sample;
+};
 
 /// What one run of faces found at its shared vertices.
 struct Chunk {
@@ -60,7 +63,11 @@ struct Chunk {
 class Evaluation {
  public:
   Evaluation(const LimitSurface& surface, const Numbering& numbering, const std::vector<bool>& mirrored, Mesh& mesh)
-      : surface_(surface), numbering_(numbering), mirrored_(mirrored), mesh_(mesh), values_(mesh, numbering.vertices) {
+      : surface_(surface),
+        numbering_(numbering),
+        mirrored_(mirrored),
+        mesh_(mesh),
+        values_(mesh, numbering.vertices) {
     mesh_.quads.resize(numbering.face_quad.back());
   }
   void run(int threads);
@@ -134,9 +141,8 @@ Mesh refine(const ControlMesh& cage, int level, int threads) {
   std::vector<bool> has_limit(cage.face_sizes.size());
   for (size_t face = 0; face < has_limit.size(); ++face) has_limit[face] = surface.has_limit(int(face));
   const std::vector<bool> mirrored = mirrored_faces(cage);
-  const Numbering numbering =
-      number_vertices(refiner->GetLevel(0), level, cage.scheme == ControlMesh::Scheme::loop, !points.uvs.empty(),
-                      std::move(has_limit), mirrored);
+  const Numbering numbering = number_vertices(refiner->GetLevel(0), level, cage.scheme == ControlMesh::Scheme::loop,
+                                              !points.uvs.empty(), std::move(has_limit), mirrored);
   Mesh mesh;
   Evaluation evaluation(surface, numbering, mirrored, mesh);
   evaluation.run(threads);

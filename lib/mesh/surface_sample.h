@@ -6,7 +6,7 @@ namespace sateen {
 /// One evaluation of the limit surface, as seen from one face.
 struct SurfaceSample {
   Vec3 position{0, 0, 0};
-  Vec3 normal{0, 0, 0};  ///< unit, or zero where the surface has none
+  Vec3 normal{0, 0, 0};               ///< unit, or zero where the surface has none
   Vec3 dpdu{0, 0, 0}, dpdv{0, 0, 0};  ///< both zero where the UVs are degenerate
   Vec2 uv{0, 0};
 };

@@ -11,22 +11,27 @@ constexpr double side = 0.3;  // metres
 constexpr int cells = 36;
 constexpr double tau = 2 * std::numbers::pi;
 
-double bump(double x, double at, double width) { return std::exp(-(x - at) * (x - at) / (width * width)); }
+double bump(double x, double at, double width) {
+  return std::exp(-(x - at) * (x - at) / (width * width));
+}
 
-// Height of the cloth towards +Z, in metres, over the flat pattern: x across (-0.15 to 0.15), y from the hem up. Three
-// folds of unequal width that lean a little and open downwards, a slack sag between two of them, and a fine ripple
-// near one edge. The figures were chosen by eye.
+// Height of the cloth towards +Z, in metres, over the flat pattern: x across (-0.15 to 0.15), y from the hem up.
+// Swags of unequal depth hang between the upper corners, lowest a little right of the middle, so that warp and weft
+// both bend; a fold runs down from the left corner, and the hem ripples. The figures were chosen by eye.
 double height(double x, double y) {
   const double drop = 1 - y / side;  // 0 where it hangs, 1 at the hem
-  const double open = 0.30 + 0.70 * drop * drop * (3 - 2 * drop);
-  const double lean = x - 0.030 * drop - 0.012 * std::sin(tau * (0.8 * drop + 0.1));
-  const double folds = 0.0125 * bump(lean, -0.085, 0.034) + 0.0165 * bump(lean, 0.012, 0.043) +
-                       0.0105 * bump(lean, 0.108, 0.030) - 0.0060 * bump(lean, -0.035, 0.026) -
-                       0.0075 * bump(lean, 0.066, 0.028);
-  const double sag = 0.0050 * std::sin(tau * (1.15 * x / side + 0.55 * drop + 0.15)) * drop * (1 - 0.45 * drop);
-  const double ripple = 0.0016 * std::sin(tau * (3.1 * x / side - 1.3 * drop)) * bump(x, 0.12, 0.07) * drop;
-  const double curl = 0.006 * bump(drop, 1.0, 0.16) * std::sin(tau * (0.7 * x / side + 0.3));
-  return open * folds + sag + ripple + curl;
+  const double off = x - 0.018;
+  const double swag = y - 2.3 * off * off + 0.10 * off;
+  const double across = 0.35 + 0.65 * bump(off, 0, 0.115);
+  const double swags = 0.0130 * bump(swag, 0.236, 0.026) - 0.0070 * bump(swag, 0.196, 0.020) +
+                       0.0170 * bump(swag, 0.152, 0.028) - 0.0090 * bump(swag, 0.104, 0.024) +
+                       0.0120 * bump(swag, 0.052, 0.030);
+  const double lean = x + 0.105 - 0.055 * drop;
+  const double fold =
+      0.0110 * bump(lean, 0, 0.026) * drop * (1 - 0.35 * drop) - 0.0045 * bump(lean, 0.042, 0.022) * drop;
+  const double hem = 0.0045 * std::sin(tau * (2.1 * x / side + 0.2)) * bump(drop, 1.0, 0.22);
+  const double belly = 0.012 * std::sin(std::numbers::pi * drop) * bump(x, 0.01, 0.16);
+  return across * swags + fold + hem + belly;
 }
 
 }  // namespace
@@ -46,8 +51,7 @@ ControlMesh swatch() {
       double x = 0, y = side;
       const int across = std::abs(i - cells / 2) * fine, down = (cells - j) * fine;
       const double way = a < 0 ? -1 : 1;
-      for (int k = 0; k < across; ++k)
-        x += way * kept(height(way * (k + 1) * small, b) - height(way * k * small, b));
+      for (int k = 0; k < across; ++k) x += way * kept(height(way * (k + 1) * small, b) - height(way * k * small, b));
       for (int k = 0; k < down; ++k) y -= kept(height(a, side - (k + 1) * small) - height(a, side - k * small));
       mesh.positions.push_back(Vec3(float(x), float(y), float(height(a, b))));
       mesh.uvs.push_back(Vec2(float(b), float(-a)));  // u up the warp; v to the left, so that the face looks to +Z

@@ -122,10 +122,11 @@ Mesh uniformly_refined(Far::TopologyRefiner& refiner, const ControlPoints& point
     SurfaceSample sample;
     sample.position = limit.positions[size_t(vertex)].value;
     if (!points.uvs.empty()) sample.uv = limit.uvs[size_t(uv)].value;
-    // Where several smooth pieces meet, one tangent plane would be as wrong as another: the mean of the pieces is taken.
+    // Where several smooth pieces meet, one tangent plane would be as wrong as another: the mean of the pieces is
+    // taken.
     if (!is_sharp(last, vertex))
-      sample.normal = safe_unit(cross(safe_unit(limit.tangents[size_t(vertex)].value),
-                                      safe_unit(limit.others[size_t(vertex)].value)));
+      sample.normal = safe_unit(
+          cross(safe_unit(limit.tangents[size_t(vertex)].value), safe_unit(limit.others[size_t(vertex)].value)));
     values.set(i, sample);
   }
   values.finish(points, 1);

@@ -13,10 +13,10 @@ bool needs_uniform_refinement(const OpenSubdiv::Far::TopologyLevel& cage);
 
 /// The limit surface by uniform refinement in Far, for such cages: positions, normals and UVs are the limit's as in
 /// subdivide(), derivatives are differences to the neighbouring vertices. Unlike there, vertices are split at UV
-/// seams only, level 0 fans polygons from their first corner, and faces on a border that is not interpolated stay. Far's
-/// limit masks ask for quads and for semi-sharp creases that have decayed: at level 0 beside other polygons, and
-/// below the level that equals a crease's sharpness, vertices lie a little off the limit.
-/// Finishes the mesh but for its name. Throws Refusal.
+/// seams only, level 0 fans polygons from their first corner, and faces on a border that is not interpolated stay.
+/// Far's limit masks ask for quads and for semi-sharp creases that have decayed: at level 0 beside other polygons,
+/// and below the level that equals a crease's sharpness, vertices lie a little off the limit. Finishes the mesh but
+/// for its name. Throws Refusal.
 Mesh uniformly_refined(OpenSubdiv::Far::TopologyRefiner& refiner, const ControlPoints& points, int level);
 
 }  // namespace sateen

@@ -24,9 +24,7 @@ std::vector<std::uint32_t> vertices_of_corners(const ControlMesh& cage, std::uin
 
 void add_face(const ControlMesh& cage, const ControlPoints& points, const std::vector<std::uint32_t>& vertices,
               size_t begin, size_t size, VertexValues& values, Mesh& mesh) {
-  const auto position = [&](size_t k) {
-    return points.positions[size_t(cage.position_indices[begin + k % size])];
-  };
+  const auto position = [&](size_t k) { return points.positions[size_t(cage.position_indices[begin + k % size])]; };
   const auto uv = [&](size_t k) {
     const int i = cage.uv_indices.empty() ? -1 : cage.uv_indices[begin + k % size];
     return i >= 0 ? points.uvs[size_t(i)] : points.uvs.empty() ? Vec2(0, 0) : points.uvs.back();

@@ -12,7 +12,9 @@ namespace sateen {
 namespace {
 constexpr float unset = std::numeric_limits<float>::quiet_NaN();
 const Vec3 zero(0, 0, 0);
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 }  // namespace
 
 VertexValues::VertexValues(Mesh& mesh, std::uint32_t vertices) : mesh_(mesh), warps_(vertices, 0) {
@@ -60,8 +62,8 @@ void VertexValues::mend_normals() {
   }
   for (const std::array<std::uint32_t, 4>& q : mesh_.quads) {
     if (!is_bad[q[0]] && !is_bad[q[1]] && !is_bad[q[2]] && !is_bad[q[3]]) continue;
-    const Vec3 area = safe_unit(cross(mesh_.positions[q[2]] - mesh_.positions[q[0]],
-                                      mesh_.positions[q[3]] - mesh_.positions[q[1]]));
+    const Vec3 area = safe_unit(
+        cross(mesh_.positions[q[2]] - mesh_.positions[q[0]], mesh_.positions[q[3]] - mesh_.positions[q[1]]));
     for (size_t k = 0; k < (q[2] == q[3] ? 3u : 4u); ++k)
       if (is_bad[q[k]]) mesh_.normals[q[k]] += area;
   }
@@ -75,8 +77,8 @@ void VertexValues::mend_normals() {
 }
 
 void VertexValues::mend_warps() {
-  // Mean of the pieces' derivatives at a vertex, weighted by their areas in UV: works where the limit's own vanish but
-  // the UVs around do not.
+  // Mean of the pieces' derivatives at a vertex, weighted by their areas in UV: works where the limit's own vanish
+  // but the UVs around do not.
   std::vector<bool> is_bad(mesh_.dpdu.size(), false);
   bool any = false;
   constexpr float parallel = 1e-2f;  // warp and weft within 0.6 degrees of one another

@@ -15,8 +15,8 @@ struct RayTracer::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::atomic<std::int64_t> bytes{0}, peak{0};
-  std::string error;             // the first one; written under Embree's own lock
-  std::vector<Vec3> positions;   // only where the mesh left no room behind its last position
+  std::string error;            // the first one; written under Embree's own lock
+  std::vector<Vec3> positions;  // only where the mesh left no room behind its last position
 
   State() = default;
   State(const State&) = delete;
@@ -34,12 +34,18 @@ namespace {
 
 const char* error_name(RTCError code) {
   switch (code) {
-    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
-    case RTC_ERROR_UNSUPPORTED_CPU: return "this processor is not supported";
-    case RTC_ERROR_INVALID_ARGUMENT: return "invalid argument";
-    case RTC_ERROR_INVALID_OPERATION: return "invalid operation";
-    case RTC_ERROR_CANCELLED: return "cancelled";
-    default: return "unknown error";
+    case RTC_ERROR_OUT_OF_MEMORY:
+      return "out of memory";
+    case RTC_ERROR_UNSUPPORTED_CPU:
+      return "this processor is not supported";
+    case RTC_ERROR_INVALID_ARGUMENT:
+      return "invalid argument";
+    case RTC_ERROR_INVALID_OPERATION:
+      return "invalid operation";
+    case RTC_ERROR_CANCELLED:
+      return "cancelled";
+    default:
+      return "unknown error";
   }
 }
 
@@ -54,8 +60,8 @@ void check_mesh(const Mesh& mesh) {
   for (size_t i = 0; i < vertices; ++i) {
     const Vec3& p = mesh.positions[i];
     if (!(std::abs(p.x) < limit && std::abs(p.y) < limit && std::abs(p.z) < limit))
-      throw InputError(fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers below 1.8e18", i, p.x, p.y,
-                                   p.z));
+      throw InputError(
+          fmt::format("vertex {} is at ({}, {}, {}), expected finite numbers below 1.8e18", i, p.x, p.y, p.z));
   }
 }
 
@@ -92,7 +98,8 @@ RayTracer::RayTracer(const Mesh& mesh, int threads) : state_(std::make_unique<St
   State& s = *state_;
   const std::string config = fmt::format("threads={},set_affinity=0", thread_count(threads));
   s.device = rtcNewDevice(config.c_str());
-  if (!s.device) throw OperationError(fmt::format("Embree does not start: {}", error_name(rtcGetDeviceError(nullptr))));
+  if (!s.device)
+    throw OperationError(fmt::format("Embree does not start: {}", error_name(rtcGetDeviceError(nullptr))));
   rtcSetDeviceErrorFunction(
       s.device,
       [](void* user, RTCError code, const char* text) {
@@ -114,7 +121,8 @@ RayTracer::RayTracer(const Mesh& mesh, int threads) : state_(std::make_unique<St
   s.scene = rtcNewScene(s.device);
   s.check("making the scene");
   // Robust: no ray slips between two quads that share an edge, at the price of 10 to 17 per cent. Without it 1 ray in
-  // 800,000 gets out of a closed sphere of 200,000 triangles, and rows of camera rays that follow a row of quads lose many.
+  // 800,000 gets out of a closed sphere of 200,000 triangles, and rows of camera rays that follow a row of quads lose
+  // many.
   rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(s.scene, RTC_BUILD_QUALITY_MEDIUM);
   const RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_QUAD);
@@ -170,6 +178,8 @@ bool RayTracer::occluded(const Ray& ray) const {
 std::int64_t RayTracer::memory_bytes() const {
   return state_->bytes + std::int64_t(state_->positions.capacity() * sizeof(Vec3));
 }
-std::int64_t RayTracer::peak_memory_bytes() const { return state_->peak; }
+std::int64_t RayTracer::peak_memory_bytes() const {
+  return state_->peak;
+}
 
 }  // namespace sateen

@@ -13,8 +13,8 @@ struct Ray {
   float t_min = 0, t_max = 1e30f;
 };
 
-/// Where a ray met the mesh. A quad is two flat triangles split along the diagonal from corner 1 to corner 3; (u, v) is (0,0) at
-/// corner 0, (1,0) at 1, (1,1) at 2, (0,1) at 3, linear on each triangle:
+/// Where a ray met the mesh. A quad is two flat triangles split along the diagonal from corner 1 to corner 3; (u, v)
+/// is (0,0) at corner 0, (1,0) at 1, (1,1) at 2, (0,1) at 3, linear on each triangle:
 ///   u + v <= 1:  (1 - u - v) c0 + u c1 + v c3
 ///   else:        (u + v - 1) c2 + (1 - u) c3 + (1 - v) c1
 /// surface_point() in scene/surface.h does this for all values.

@@ -65,8 +65,8 @@ SurfacePoint surface_point(const Mesh& mesh, const Hit& hit) {
   constexpr double half_ulp = 0x1p-24;
   const Vec3& n = out.geometric_normal;
   const double rounding = std::abs(n.x * p.x) + std::abs(n.y * p.y) + std::abs(n.z * p.z);
-  const double extent = std::max({std::abs(ab.x), std::abs(ab.y), std::abs(ab.z), std::abs(ac.x), std::abs(ac.y),
-                                  std::abs(ac.z)});
+  const double extent =
+      std::max({std::abs(ab.x), std::abs(ab.y), std::abs(ab.z), std::abs(ac.x), std::abs(ac.y), std::abs(ac.z)});
   constexpr double embree_roundings = 16;
   out.error = float((2 * rounding + embree_roundings * extent) * half_ulp);
   return out;

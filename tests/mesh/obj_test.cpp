@@ -23,7 +23,8 @@ std::string error_of(const std::string& text) {
 }
 
 TEST(Obj, KeepsFacesOfAnySizeAndTheirSeparateUvIndices) {
-  const ControlMesh m = parse_obj(square + "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\nf 4/3/9 3/2/9 2/1/9 1/1/9\n", "a.obj");
+  const ControlMesh m =
+      parse_obj(square + "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\nf 4/3/9 3/2/9 2/1/9 1/1/9\n", "a.obj");
   EXPECT_EQ(m.face_sizes, (std::vector<int>{3, 4}));
   EXPECT_EQ(m.position_indices, (std::vector<int>{0, 1, 2, 3, 2, 1, 0}));
   EXPECT_EQ(m.uv_indices, (std::vector<int>{0, 1, 2, 2, 1, 0, 0}));
@@ -34,7 +35,8 @@ TEST(Obj, KeepsFacesOfAnySizeAndTheirSeparateUvIndices) {
 }
 
 TEST(Obj, ReadsNormalsColoursAndWeightsWithoutUsingThem) {
-  const ControlMesh m = parse_obj("v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nvn 0 0 1\nvt 0.5\nvt 0 0 7\nvt 1 0\nf 1//1 2//1 3//1\n", "a");
+  const ControlMesh m = parse_obj(
+      "v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nvn 0 0 1\nvt 0.5\nvt 0 0 7\nvt 1 0\nf 1//1 2//1 3//1\n", "a");
   EXPECT_EQ(m.position_indices, (std::vector<int>{0, 1, 2}));
   EXPECT_TRUE(m.uv_indices.empty());
   EXPECT_TRUE(m.uvs.empty());
@@ -46,7 +48,8 @@ TEST(Obj, CountsNegativeIndicesFromWhatWasReadLast) {
 }
 
 TEST(Obj, TakesWindowsLinesByteOrderMarksCommentsAndContinuedLines) {
-  const ControlMesh m = parse_obj("\xEF\xBB\xBFv 0 0 0 # origin\r\nv 1 0 \\\r\n  0\r\n\r\n# f 9 9 9\r\n\tv +1 1.0e0 0\r\nf 1 2 \\\r\n3\r\n", "a");
+  const ControlMesh m = parse_obj(
+      "\xEF\xBB\xBFv 0 0 0 # origin\r\nv 1 0 \\\r\n  0\r\n\r\n# f 9 9 9\r\n\tv +1 1.0e0 0\r\nf 1 2 \\\r\n3\r\n", "a");
   EXPECT_EQ(m.positions.size(), 3u);
   EXPECT_EQ(m.positions[2], Vec3(1, 1, 0));
   EXPECT_EQ(m.position_indices, (std::vector<int>{0, 1, 2}));
@@ -64,16 +67,18 @@ TEST(Obj, RefusesAnIndexOutOfRangeWithItsPlace) {
             "a.obj:5:7: error: vertex index is 99, expected 1 to 4\n    5 | f 1 2 99\n      |       ^^");
   EXPECT_EQ(error_of(square + "f 1 -5 3\n"),
             "a.obj:5:5: error: vertex index is -5, expected -1 to -4\n    5 | f 1 -5 3\n      |     ^^");
-  EXPECT_EQ(error_of(square + "vt 0 0\nf 1/1 2/2 3/1\n"),
-            "a.obj:6:9: error: texture coordinate index is 2, expected 1 to 1\n    6 | f 1/1 2/2 3/1\n      |         ^");
+  EXPECT_EQ(
+      error_of(square + "vt 0 0\nf 1/1 2/2 3/1\n"),
+      "a.obj:6:9: error: texture coordinate index is 2, expected 1 to 1\n    6 | f 1/1 2/2 3/1\n      |         ^");
   EXPECT_EQ(error_of(square + "f 1/1 2/1 3/1\n").substr(0, 85),
             "a.obj:5:5: error: texture coordinate index is 1, but the file holds none\n    5 | f 1/");
 }
 
 TEST(Obj, RefusesTheIndexZeroWithHelp) {
-  EXPECT_EQ(error_of(square + "f 0 1 2\n"),
-            "a.obj:5:3: error: vertex index is 0, expected 1 or more, or a negative one\n    5 | f 0 1 2\n      |   ^\n"
-            "  help: OBJ counts from 1; -1 is the one read last");
+  EXPECT_EQ(
+      error_of(square + "f 0 1 2\n"),
+      "a.obj:5:3: error: vertex index is 0, expected 1 or more, or a negative one\n    5 | f 0 1 2\n      |   ^\n"
+      "  help: OBJ counts from 1; -1 is the one read last");
 }
 
 TEST(Obj, RefusesNumbersThatAreNotFiniteOrTooLarge) {
@@ -102,7 +107,8 @@ TEST(Obj, RefusesFacesOfFewerThanThreeCorners) {
 TEST(Obj, RefusesAFileWithoutFaces) {
   EXPECT_EQ(error_of(""), "error: a.obj: holds no face, expected at least one");
   EXPECT_EQ(error_of(square), "error: a.obj: holds no face, expected at least one");
-  EXPECT_EQ(error_of(square + "f 1 1 2\n"), "error: a.obj: no face is left after dropping those that use a vertex twice");
+  EXPECT_EQ(error_of(square + "f 1 1 2\n"),
+            "error: a.obj: no face is left after dropping those that use a vertex twice");
 }
 
 TEST(Obj, ReportsAllErrorsAtOnceButNoMoreThanTwentyInFull) {
@@ -200,8 +206,9 @@ TEST(ObjTags, RefusesTagsThatPointNowhere) {
 }
 
 TEST(ObjTags, PassesOverStrayAndMalformedTagsWithAWarning) {
-  for (const std::string line : {"t", "t hello world", "t crease 2/1 0 1 1", "t crease 3/1/0 0 1 2 1", "t hole 9999999999999/0/0",
-                                 "t crease 2/1/0 0 1", "t 0.5 0.25", "t corner 1/1/0 1 nan"}) {
+  for (const std::string line :
+       {"t", "t hello world", "t crease 2/1 0 1 1", "t crease 3/1/0 0 1 2 1", "t hole 9999999999999/0/0",
+        "t crease 2/1/0 0 1", "t 0.5 0.25", "t corner 1/1/0 1 nan"}) {
     const ControlMesh m = parse_obj(square + "f 1 2 3 4\n" + line + "\n", "a.obj");
     ASSERT_EQ(m.warnings.size(), 1u) << line;
     EXPECT_EQ(m.warnings[0], "a.obj:6: 1 tag not understood and ignored") << line;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <tuple>
@@ -15,8 +14,12 @@
 namespace sateen {
 namespace {
 
-Vec2 plain(float x, float y) { return Vec2(x, y); }
-Vec3 flat(float x, float y) { return Vec3(x, y, 0); }
+Vec2 plain(float x, float y) {
+  return Vec2(x, y);
+}
+Vec3 flat(float x, float y) {
+  return Vec3(x, y, 0);
+}
 
 TEST(Subdivide, APlaneStaysAPlaneWithExactDerivativesInEveryChart) {
   // A plane that lies askew, UVs affine in it but sheared and scaled: dP/du and dP/dv are known.
@@ -25,7 +28,8 @@ TEST(Subdivide, APlaneStaysAPlaneWithExactDerivativesInEveryChart) {
   const auto chart = [](float x, float y) { return Vec2(0.4f * x + 0.1f * y + 5, -0.2f * x + 0.3f * y - 2); };
   // x = (0.3 u' - 0.1 v') / 0.14, y = (0.2 u' + 0.4 v') / 0.14
   const Vec3 dpdu = (a * 0.3f + b * 0.2f) / 0.14f, dpdv = (b * 0.4f - a * 0.1f) / 0.14f;
-  for (const ControlMesh::FvarBoundary rule : {ControlMesh::FvarBoundary::corners_plus1, ControlMesh::FvarBoundary::all}) {
+  for (const ControlMesh::FvarBoundary rule :
+       {ControlMesh::FvarBoundary::corners_plus1, ControlMesh::FvarBoundary::all}) {
     for (int level = 0; level <= 3; ++level) {
       ControlMesh cage = grid_cage(6, 5, plane, chart);
       cage.fvar_boundary = rule;
@@ -52,7 +56,8 @@ TEST(Subdivide, PositionsOfABicubicCageAreThoseOfItsSpline) {
   int inner = 0;
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3& p = mesh.positions[i];
-    if (p.x < 0.999f || p.x > 7.001f || p.y < 0.999f || p.y > 7.001f) continue;  // the border cells end in other rules
+    if (p.x < 0.999f || p.x > 7.001f || p.y < 0.999f || p.y > 7.001f)
+      continue;  // the border cells end in other rules
     ++inner;
     EXPECT_NEAR(p.z, p.x * p.x - 0.5f * p.y * p.y + 1.0f / 6, 3e-5);
     EXPECT_NEAR((mesh.dpdu[i] - Vec3(1, 0, 2 * p.x)).length(), 0, 2e-4);
@@ -83,7 +88,8 @@ TEST(Subdivide, ACubeBecomesTheKnownRoundShape) {
   // Limit of a cube's corner (valence 3) is (9 C + 4 sum E + sum F) / 24: for the corner (1,1,1), 5/12 ... per axis.
   const ControlMesh cage = parse_obj(
       "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
-      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", "cube");
+      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+      "cube");
   for (int level = 0; level <= 4; ++level) {
     const Mesh mesh = subdivide(cage, level);
     expect_sound(mesh);
@@ -103,8 +109,10 @@ TEST(Subdivide, ACubeBecomesTheKnownRoundShape) {
 }
 
 TEST(Subdivide, PointsAroundAnExtraordinaryVertexDoNotDependOnTheLevel) {
-  ControlMesh cage = parse_obj("v 0 0 0.5\nv 1 0 0\nv 1 1 0.2\nv 0 1 0\nv -1 0.7 0.1\nv -1 0 0\nv -0.5 -1 0\nv 0.6 -1 0.3\n"
-                               "f 1 2 3 4\nf 1 4 5 6\nf 1 6 7 8\nf 1 8 2\n", "fan");
+  ControlMesh cage = parse_obj(
+      "v 0 0 0.5\nv 1 0 0\nv 1 1 0.2\nv 0 1 0\nv -1 0.7 0.1\nv -1 0 0\nv -0.5 -1 0\nv 0.6 -1 0.3\n"
+      "f 1 2 3 4\nf 1 4 5 6\nf 1 6 7 8\nf 1 8 2\n",
+      "fan");
   // Every point of a coarse level is one of each finer level, in the same place: they are all limit points.
   const Mesh fine = subdivide(cage, 5);
   for (int level = 1; level <= 4; ++level) {
@@ -134,7 +142,8 @@ TEST(Subdivide, UniformRefinementAgreesWithTheFaceByFaceEvaluation) {
   std::swap(cage.uv_indices[41 * 4 + 3], cage.uv_indices[41 * 4 + 4]);
   cage.holes = {17};
   ControlMesh with_pillow = cage;
-  for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) with_pillow.positions.push_back(Vec3(p.x, p.y, 1));
+  for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)})
+    with_pillow.positions.push_back(Vec3(p.x, p.y, 1));
   with_pillow.face_sizes.insert(with_pillow.face_sizes.end(), {4, 4});
   for (const int k : {56, 57, 58, 59, 59, 58, 57, 56}) {
     with_pillow.position_indices.push_back(k);
@@ -147,7 +156,8 @@ TEST(Subdivide, UniformRefinementAgreesWithTheFaceByFaceEvaluation) {
     for (size_t i = 0; i < one.positions.size(); ++i) {
       size_t nearest = 0;
       for (size_t k = 0; k < other.positions.size(); ++k)
-        if ((other.positions[k] - one.positions[i]).length2() < (other.positions[nearest] - one.positions[i]).length2())
+        if ((other.positions[k] - one.positions[i]).length2() <
+            (other.positions[nearest] - one.positions[i]).length2())
           nearest = k;
       position = std::max(position, double((other.positions[nearest] - one.positions[i]).length()));
       normal = std::max(normal, double((other.normals[nearest] - one.normals[i]).length()));
@@ -176,7 +186,10 @@ TEST(Subdivide, UvSeamsAreWatertightAndSplit) {
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 12; ++i) {
       cage.face_sizes.push_back(4);
-      const auto p = [&](int x, int y) { cage.position_indices.push_back(y * 12 + x % 12); cage.uv_indices.push_back(y * 13 + x); };
+      const auto p = [&](int x, int y) {
+        cage.position_indices.push_back(y * 12 + x % 12);
+        cage.uv_indices.push_back(y * 13 + x);
+      };
       p(i, j);
       p(i + 1, j);
       p(i + 1, j + 1);
@@ -251,7 +264,8 @@ TEST(Subdivide, BoundaryRulesDecideAboutCornersAndBorders) {
   };
   EXPECT_NEAR(corner_distance(ControlMesh::Boundary::edge_and_corner), 0, 1e-6);
   EXPECT_NEAR(corner_distance(ControlMesh::Boundary::edge_only), std::sqrt(2.0f) / 6, 1e-5);
-  EXPECT_NEAR(corner_distance(ControlMesh::Boundary::none), std::sqrt(2.0f), 1e-5) << "the border faces have no limit";
+  EXPECT_NEAR(corner_distance(ControlMesh::Boundary::none), std::sqrt(2.0f), 1e-5)
+      << "the border faces have no limit";
 }
 
 TEST(Subdivide, TrianglesUnderLoopGiveTrianglesOfTheBoxSpline) {
@@ -325,8 +339,10 @@ TEST(Subdivide, TheSameBitsComeFromAnyNumberOfThreads) {
 }
 
 TEST(Subdivide, LevelZeroKeepsQuadsAndFansOtherPolygonsAroundTheirCentre) {
-  const ControlMesh cage = parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 1.5 2 0\n"
-                                     "f 1 2 3 4\nf 2 5 6 7 3\nf 4 3 7\n", "mixed");
+  const ControlMesh cage = parse_obj(
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 1.5 2 0\n"
+      "f 1 2 3 4\nf 2 5 6 7 3\nf 4 3 7\n",
+      "mixed");
   const Mesh mesh = subdivide(cage, 0);
   expect_sound(mesh);
   EXPECT_EQ(mesh.quads.size(), 1u + 5 + 1);
@@ -338,7 +354,8 @@ TEST(Subdivide, LevelZeroKeepsQuadsAndFansOtherPolygonsAroundTheirCentre) {
 }
 
 TEST(Subdivide, MissingUvsGiveTheObjectsXOrZAxisAsWarp) {
-  ControlMesh cage = grid_cage(3, 3, [](float x, float y) { return Vec3(x, 0, -y); }, plain);
+  ControlMesh cage = grid_cage(
+      3, 3, [](float x, float y) { return Vec3(x, 0, -y); }, plain);
   cage.uvs.clear();
   cage.uv_indices.clear();
   const Mesh floor = subdivide(cage, 1);
@@ -360,45 +377,9 @@ TEST(Subdivide, RefusesLevelsOutOfRange) {
       subdivide(cage, level);
       FAIL();
     } catch (const InputError& e) {
-      EXPECT_EQ(std::string(e.what()),
-                "error: subdivision level is " + std::to_string(level) + ", expected 0 to 6");
+      EXPECT_EQ(std::string(e.what()), "error: subdivision level is " + std::to_string(level) + ", expected 0 to 6");
     }
   }
-}
-
-TEST(AutomaticLevel, HalvesTheLongestEdgeUntilItIsBelowTwoPixels) {
-  const ControlMesh cage = grid_cage(4, 4, flat, plain);
-  const auto level = [&](float pixel) { return automatic_level(cage, [&](const Vec3&) { return pixel; }); };
-  EXPECT_EQ(level(1.0f), 0);
-  EXPECT_EQ(level(0.5f), 0);
-  EXPECT_EQ(level(0.49f), 1);
-  EXPECT_EQ(level(0.1f), 3);
-  EXPECT_EQ(level(1e-6f), 6);
-  EXPECT_EQ(level(0), 0) << "behind the camera";
-  EXPECT_EQ(level(NAN), 0);
-  EXPECT_EQ(automatic_level(cage, [](const Vec3&) { return 1e-6f; }, 2, 300), 2) << "4 * 4 * 16 quads fit, 1024 do not";
-  EXPECT_EQ(automatic_level(cage, [](const Vec3& p) { return p.x < 1 ? 0.1f : 9.0f; }), 3) << "the nearest part decides";
-}
-
-TEST(SharedMeshes, ParseAndSubdivideAtAllLevelsWithoutAMadeUpWarpWhereTheyHaveUvs) {
-  namespace fs = std::filesystem;
-  const fs::path folder = SATEEN_SOURCE_DIR "/../shared/meshes";
-  if (!fs::exists(folder)) GTEST_SKIP() << "../shared/meshes is not there";
-  int files = 0;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() != ".obj") continue;
-    ++files;
-    const ControlMesh cage = read_obj(entry.path());
-    EXPECT_TRUE(cage.warnings.empty()) << entry.path();
-    for (int level = 0; level <= 3; ++level) {
-      SCOPED_TRACE(entry.path().string() + " level " + std::to_string(level));
-      const Mesh mesh = subdivide(cage, level);
-      expect_sound(mesh);
-      EXPECT_TRUE(mesh.warnings.empty());
-      EXPECT_EQ(mesh.fallback_warps, cage.uv_indices.empty() ? std::int64_t(mesh.positions.size()) : 0);
-    }
-  }
-  EXPECT_GE(files, 8);
 }
 
 }  // namespace

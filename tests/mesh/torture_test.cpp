@@ -63,7 +63,9 @@ std::string sheet(double scale, double offset, const Chart& chart) {
   }
   return text;
 }
-std::string plain(double x, double y) { return fmt::format("{} {}", x / 4, y / 4); }
+std::string plain(double x, double y) {
+  return fmt::format("{} {}", x / 4, y / 4);
+}
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string cube =
@@ -79,9 +81,11 @@ std::vector<Case> cases() {
   std::string random_soup;
   std::mt19937 random(3);
   for (int i = 0; i < 60; ++i)
-    random_soup += fmt::format("v {} {} {}\n", double(random()) / 4e9, double(random()) / 4e9, double(random()) / 4e9);
+    random_soup +=
+        fmt::format("v {} {} {}\n", double(random()) / 4e9, double(random()) / 4e9, double(random()) / 4e9);
   for (int i = 0; i < 200; ++i)
-    random_soup += fmt::format("f {} {} {} {}\n", random() % 60 + 1, random() % 60 + 1, random() % 60 + 1, random() % 60 + 1);
+    random_soup +=
+        fmt::format("f {} {} {} {}\n", random() % 60 + 1, random() % 60 + 1, random() % 60 + 1, random() % 60 + 1);
   return {
       {"one triangle", square + "f 1 2 3\n"},
       {"one quad", square + "f 1 2 3 4\n"},
@@ -114,7 +118,8 @@ std::vector<Case> cases() {
       {"pole of valence 3,000", pole(3000)},
       {"n-gon of 70,000", polygon(70000, 1, 0) + numbered_face(1, 70000), true},
       {"two faces around a vertex", square + "v 2 0 1\nv 2 1 1\nf 1 2 3 4\nf 2 1 5 6 3\nt crease 2/1/0 1 2 3.5\n"},
-      {"two faces around a vertex with a dart", square + "v 2 0 1\nv 2 1 1\nf 1 2 3 4\nf 2 1 5 6 3\nt crease 2/1/0 1 2 10\n"},
+      {"two faces around a vertex with a dart",
+       square + "v 2 0 1\nv 2 1 1\nf 1 2 3 4\nf 2 1 5 6 3\nt crease 2/1/0 1 2 10\n"},
       {"pillow", square + "f 1 2 3 4\nf 4 3 2 1\n"},
       {"isolated vertices", square + "v 5e14 0 0\nv 7 7 7\nf 1 2 3 4\n"},
       {"Moebius strip", moebius(12)},

@@ -56,7 +56,8 @@ Mesh round_mesh(int rows, double radius, const Vec3d& centre) {
 TEST(RayTracer, TheCornersOfAQuadHaveTheDocumentedCoordinates) {
   const Mesh mesh = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
   const RayTracer tracer(mesh);
-  for (const Vec2& p : {Vec2(0.1f, 0.1f), Vec2(0.9f, 0.05f), Vec2(0.95f, 0.9f), Vec2(0.02f, 0.9f), Vec2(0.3f, 0.3f), Vec2(0.7f, 0.7f)}) {
+  for (const Vec2& p : {Vec2(0.1f, 0.1f), Vec2(0.9f, 0.05f), Vec2(0.95f, 0.9f), Vec2(0.02f, 0.9f), Vec2(0.3f, 0.3f),
+                        Vec2(0.7f, 0.7f)}) {
     const auto hit = tracer.closest_hit({Vec3(2 * p.x, p.y, 3), Vec3(0, 0, -2)});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->quad, 0u);
@@ -134,22 +135,24 @@ TEST(RayTracer, RefusesVerticesThatAreNotFiniteAndQuadsThatPointNowhere) {
   };
   EXPECT_EQ(error(mesh_of({{0, 0, 0}, {1, 0, 0}, {NAN, 1, 0}}, {{0, 1, 2, 2}})),
             "error: vertex 2 is at (nan, 1, 0), expected finite numbers below 1.8e18");
-  EXPECT_EQ(error(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}})), "error: quad 0 uses vertex 3, expected 0 to 2");
+  EXPECT_EQ(error(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2, 3}})),
+            "error: quad 0 uses vertex 3, expected 0 to 2");
   EXPECT_EQ(error(mesh_of({}, {})), "no error");
 }
 
 TEST(RayTracer, AnEmptyMeshAndSliversAreMissedNotCrashedInto) {
   const Mesh empty;
   EXPECT_FALSE(RayTracer(empty).occluded({Vec3(0, 0, 1), Vec3(0, 0, -1)}));
-  const Mesh sliver = mesh_of({{0, 0, 0}, {1e-20f, 0, 0}, {0, 1e-20f, 0}, {0, 0, 0}, {0, 0, 0}}, {{0, 1, 2, 2}, {3, 3, 4, 4}});
+  const Mesh sliver =
+      mesh_of({{0, 0, 0}, {1e-20f, 0, 0}, {0, 1e-20f, 0}, {0, 0, 0}, {0, 0, 0}}, {{0, 1, 2, 2}, {3, 3, 4, 4}});
   const RayTracer tracer(sliver);
   const auto hit = tracer.closest_hit({Vec3(2e-21f, 2e-21f, 1), Vec3(0, 0, -1)});
   EXPECT_TRUE(!hit || std::isfinite(hit->t));
 }
 
 TEST(RayTracer, WatertightAlongSharedEdgesAndSplitSeams) {
-  // From inside a closed shape, rays aimed at points on its edges never get out. Exactly through a vertex about 1 in 100
-  // do (Embree's robust mode promises edges only); without that mode it is 1 in 8 on edges, 1 in 3 at vertices.
+  // From inside a closed shape, rays aimed at points on its edges never get out. Exactly through a vertex about 1 in
+  // 100 do (Embree's robust mode promises edges only); without that mode it is 1 in 8 on edges, 1 in 3 at vertices.
   const Mesh mesh = subdivide(built_in_shape("sphere"), 2);
   const RayTracer tracer(mesh);
   const Vec3 centre(0.001f, 0.1503f, -0.002f);
@@ -199,13 +202,15 @@ void expect_no_self_hits(double radius, const Vec3d& centre, double least_cosine
   int tested = 0, self_hits = 0;
   while (tested < 40000) {
     const Vec3d from(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
-    const Vec3 origin(centre + from.normalized() * (3 * radius)), target(centre + Vec3d(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5) * radius);
+    const Vec3 origin(centre + from.normalized() * (3 * radius)),
+        target(centre + Vec3d(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5) * radius);
     const auto hit = tracer.closest_hit({origin, target - origin});
     if (!hit) continue;
     const SurfacePoint point = surface_point(mesh, *hit);
     const Frame frame = frame_from(point.geometric_normal, Vec3(1, 0, 0));
     // Half of them grazing, down to the least cosine.
-    const float z = tested % 2 ? float(least_cosine) * (1 + 4 * uniform(random)) : std::max(uniform(random), float(least_cosine));
+    const float z =
+        tested % 2 ? float(least_cosine) * (1 + 4 * uniform(random)) : std::max(uniform(random), float(least_cosine));
     const float phi = 2 * pi * uniform(random), r = std::sqrt(std::max(0.0f, 1 - z * z));
     const Vec3 direction = frame.to_world(Vec3(r * std::cos(phi), r * std::sin(phi), z));
     ++tested;
@@ -220,8 +225,8 @@ TEST(Offset, NoRayMeetsTheSphereThatItLeavesAtAnyScale) {
 }
 
 TEST(Offset, NoRayMeetsTheSphereThatItLeavesFarFromTheOrigin) {
-  // At d sizes from the origin the vertices themselves are rounded to d * 6e-8 of the size, which bends a quad of 1/20
-  // of the size by 20 times that: rays flatter than this truly meet the bent neighbour.
+  // At d sizes from the origin the vertices themselves are rounded to d * 6e-8 of the size, which bends a quad of
+  // 1/20 of the size by 20 times that: rays flatter than this truly meet the bent neighbour.
   for (const double radius : {1e-3, 1.0, 1e5})
     for (const double sizes : {10.0, 1e3, 1e4})
       expect_no_self_hits(radius, Vec3d(1, -0.7, 0.4) * (sizes * radius), std::max(1e-4, sizes * 1.2e-7 * 100));
@@ -250,7 +255,8 @@ TEST(Offset, LayersThatLieCloseTogetherStillShadowOneAnother) {
     for (const float gap : {1e-4f, 1e-5f}) {
       std::vector<Vec3> p;
       for (const float z : {0.0f, gap})
-        for (const Vec2& c : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}) p.push_back(Vec3(c.x, c.y, z + 0.37f * c.x) * scale);
+        for (const Vec2& c : {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)})
+          p.push_back(Vec3(c.x, c.y, z + 0.37f * c.x) * scale);
       const Mesh mesh = mesh_of(std::move(p), {{0, 1, 2, 3}, {4, 5, 6, 7}});
       const RayTracer tracer(mesh, 1);
       std::mt19937 random(2);
@@ -272,7 +278,8 @@ TEST(Offset, LayersThatLieCloseTogetherStillShadowOneAnother) {
 
 TEST(Offset, LargeFacesAreNotMetNearTheOriginEither) {
   // Near the origin a position rounds to next to nothing, but Embree still computes with corners a size away.
-  const Mesh mesh = mesh_of({{-1, -1.03f, 0.27f}, {1, -0.97f, -0.31f}, {1, 1.02f, -0.29f}, {-1, 0.99f, 0.3f}}, {{0, 1, 2, 3}});
+  const Mesh mesh =
+      mesh_of({{-1, -1.03f, 0.27f}, {1, -0.97f, -0.31f}, {1, 1.02f, -0.29f}, {-1, 0.99f, 0.3f}}, {{0, 1, 2, 3}});
   const RayTracer tracer(mesh, 1);
   std::mt19937 random(4);
   std::uniform_real_distribution<float> uniform(-1, 1);
