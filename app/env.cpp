@@ -16,7 +16,7 @@
 namespace sateen::app {
 
 namespace {
-int run_make(const std::vector<std::string>& words) {
+int env_make(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   std::string output;
   int width = 0, height = 0;
@@ -50,7 +50,7 @@ int run_make(const std::vector<std::string>& words) {
   return done;
 }
 
-int run_inspect(const std::vector<std::string>& words) {
+int env_inspect(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   EnvironmentFileOptions options;
   std::string ocio, working;
@@ -79,7 +79,7 @@ int run_inspect(const std::vector<std::string>& words) {
   return done;
 }
 
-int run_list(const std::vector<std::string>& words) {
+int env_list(const std::vector<std::string>& words) {
   Command command("env list", "Lists the maps that are found by name: here, in SATEEN_PATH, the program's own, an installed Blender's.",
                   "[--json]");
   command.flag("--json", voice.json, "the same as JSON, with paths");
@@ -100,9 +100,9 @@ int run_list(const std::vector<std::string>& words) {
 
 const std::vector<Subcommand>& env_subcommands() {
   static const std::vector<Subcommand> all{
-      {"list", "the maps that are found by name", run_list},
-      {"inspect", "size, range, repairs, and where the light is", run_inspect},
-      {"make", "a map from a description of its lights", run_make},
+      {"list", "the maps that are found by name", env_list},
+      {"inspect", "size, range, repairs, and where the light is", env_inspect},
+      {"make", "a map from a description of its lights", env_make},
   };
   return all;
 }

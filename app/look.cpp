@@ -16,7 +16,7 @@
 namespace sateen::app {
 
 namespace {
-int run_list(const std::vector<std::string>& words) {
+int look_list(const std::vector<std::string>& words) {
   Command command("look list", "Lists the looks that are found by name: here, in SATEEN_PATH, in the program's own folder.",
                   "[--json]");
   command.flag("--json", voice.json, "the same as JSON, with paths");
@@ -94,7 +94,7 @@ std::vector<LobeSummary> print_albedo(const MeasuredLook& measured, std::string&
   return too_bright;
 }
 
-int run_check(const std::vector<std::string>& words) {
+int look_check(const std::vector<std::string>& words) {
   std::vector<std::string> names, overrides;
   Command command("look check", "Reads looks, reports every error in them, and prints how much light they give back by view angle.",
                   "[LOOK...] [--json]");
@@ -123,7 +123,7 @@ int run_check(const std::vector<std::string>& words) {
   return done;
 }
 
-int run_resolve(const std::vector<std::string>& words) {
+int look_resolve(const std::vector<std::string>& words) {
   std::vector<std::string> names, overrides;
   bool plain = false;
   Command command("look resolve", "Prints a look with its parents merged, and where each value comes from.", "LOOK [--json]");
@@ -156,7 +156,7 @@ int run_resolve(const std::vector<std::string>& words) {
   return done;
 }
 
-int run_diff(const std::vector<std::string>& words) {
+int look_diff(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   Command command("look diff", "Prints the fields in which two looks differ. Titles, descriptions and sources do not count.",
                   "LOOK LOOK [--json]");
@@ -180,7 +180,7 @@ int run_diff(const std::vector<std::string>& words) {
   return done;
 }
 
-int run_schema(const std::vector<std::string>& words) {
+int look_schema_command(const std::vector<std::string>& words) {
   std::string output;
   bool fields = false;
   Command command("look schema", "Prints the JSON Schema of look files, with which editors complete and check while you type.",
@@ -204,11 +204,11 @@ int run_schema(const std::vector<std::string>& words) {
 
 const std::vector<Subcommand>& look_subcommands() {
   static const std::vector<Subcommand> all{
-      {"list", "the looks that are found by name", run_list},
-      {"check", "errors in looks, and their albedo by view angle", run_check},
-      {"resolve", "a look with its parents merged, and where each value comes from", run_resolve},
-      {"diff", "the fields in which two looks differ", run_diff},
-      {"schema", "JSON Schema of look files, or a list of all fields", run_schema},
+      {"list", "the looks that are found by name", look_list},
+      {"check", "errors in looks, and their albedo by view angle", look_check},
+      {"resolve", "a look with its parents merged, and where each value comes from", look_resolve},
+      {"diff", "the fields in which two looks differ", look_diff},
+      {"schema", "JSON Schema of look files, or a list of all fields", look_schema_command},
   };
   return all;
 }

@@ -8,7 +8,8 @@
 #include "base/files.h"
 #include "base/parallel.h"
 #include "console.h"
-#include "look/json_writer.h"
+#include "exit_code.h"
+#include "signals.h"
 
 namespace sateen::app {
 
@@ -59,6 +60,14 @@ std::string reason_text(const StopRules& stop, const RenderResult& result) {
   return "stopped by a signal: the pictures hold the samples that were done";
 }
 
+long long peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return (long long)(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
 void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
   const SceneSettings& s = job.scene;
   w.member("version", job.version).member("job", job_hash(job, report));
@@ -88,17 +97,10 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   w.close();
 }
 
-long long peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return (long long)(usage.ru_maxrss) * 1024;
-}
-
 void write_stats(const PictureFlags& flags, const std::string& json) {
   if (!flags.stats.empty()) write_text_whole(flags.stats, json + "\n");
   if (voice.json) print_result(json);
 }
-}  // namespace
 
 PictureJob make_job(const PictureFlags& flags, const SceneReport& report, const Scene& scene,
                     const ColorManager& colors, const std::string& words) {
@@ -143,18 +145,31 @@ int report_dry_run(const PictureFlags& flags, const PictureJob& job, const Scene
   return 0;
 }
 
-void report_picture(const PictureFlags& flags, const PictureJob& job, const SceneReport& report,
-                    const RenderResult& result, const std::vector<WrittenPicture>& written, int code) {
-  for (const WrittenPicture& file : written) {
-    const std::string content = file.layers > 0
-                                    ? fmt::format("{} layers, {}", file.layers, job.working_space)
-                                    : fmt::format("{}, {}", job.display.display, job.display.view);
-    print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content,
-                           size_text(file.bytes)));
-    if (file.clamped > 0)
-      print_warning(fmt::format("{}: {} values were beyond the range of half and were clamped to 65504",
-                                file.path.string(), file.clamped));
-  }
+void write_result(JsonWriter& w, const RenderResult& result, const std::vector<WrittenPicture>& written) {
+  w.member("spp", result.samples).member("stopped_by", stop_reason_text(result.reason)).key("error");
+  if (result.error.known)
+    w.open_object().member("value", result.error.error).member("low", result.error.low).member("high", result.error.high).close();
+  else
+    w.null();
+  w.member("seconds", result.seconds).member("cpu_seconds", result.cpu_seconds);
+  w.member("first_pass_seconds", result.first_pass_seconds).member("peak_memory_bytes", peak_memory_bytes());
+  w.key("rays").open_object().member("camera", result.rays.camera).member("shadow", result.rays.shadow);
+  w.member("bounce", result.rays.bounce).close().member("non_finite", result.rays.non_finite);
+  w.key("files").open_list();
+  for (const WrittenPicture& file : written)
+    w.open_object().member("path", file.path.string()).member("bytes", file.bytes).member("layers", file.layers).close();
+  w.close();
+}
+
+void print_written(const PictureJob& job, const WrittenPicture& file) {
+  const std::string content = file.layers > 0 ? fmt::format("{} layers, {}", file.layers, job.working_space)
+                                              : fmt::format("{}, {}", job.display.display, job.display.view);
+  print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content, size_text(file.bytes)));
+  if (file.clamped > 0)
+    print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504", file.path.string(), file.clamped));
+}
+
+void print_result_line(const PictureJob& job, const RenderResult& result) {
   print_note(fmt::format("{} samples a pixel in {}, {}; {}", result.samples, seconds_text(result.seconds),
                          error_text(result.error), reason_text(job.render.stop, result)));
   print_detail(fmt::format("first complete pass after {:.2f} s; {:.1f} CPU-s; rays: {} camera, {} shadow, {} bounce; peak memory {}",
@@ -163,25 +178,15 @@ void report_picture(const PictureFlags& flags, const PictureJob& job, const Scen
   if (result.rays.non_finite > 0)
     print_warning(fmt::format("{} samples were not finite and were left out: please report this with its command line",
                               result.rays.non_finite));
-  JsonWriter w;
-  w.open_object();
-  write_job(w, flags, job, report);
-  w.member("spp", result.samples).member("stopped_by", stop_reason_text(result.reason));
-  w.key("error");
-  if (result.error.known)
-    w.open_object().member("value", result.error.error).member("low", result.error.low).member("high", result.error.high).close();
-  else
-    w.null();
-  w.member("seconds", result.seconds).member("cpu_seconds", result.cpu_seconds);
-  w.member("first_pass_seconds", result.first_pass_seconds).member("peak_memory_bytes", peak_memory_bytes());
-  w.key("rays").open_object().member("camera", result.rays.camera).member("shadow", result.rays.shadow);
-  w.member("bounce", result.rays.bounce).close();
-  w.member("non_finite", result.rays.non_finite).member("exit_code", code);
-  w.key("files").open_list();
-  for (const WrittenPicture& file : written)
-    w.open_object().member("path", file.path.string()).member("bytes", file.bytes).member("layers", file.layers).close();
-  w.close().close();
-  write_stats(flags, w.text());
+}
+
+int picture_code(const PictureFlags& flags, const RenderResult& result) {
+  const StopRules& stop = flags.render.stop;
+  if (result.reason == StopReason::interrupted) return 128 + signal_received();
+  if (flags.strict && result.rays.non_finite > 0) return not_finite;
+  const bool error_missed = stop.error > 0 && result.reason != StopReason::error;
+  const bool samples_missed = stop.error <= 0 && stop.spp > 0 && result.reason == StopReason::time;
+  return error_missed || samples_missed ? quality_not_reached : done;
 }
 
 std::function<void(std::string_view)> progress_writer(ProgressStyle style) {

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "look/json_writer.h"
 #include "picture_flags.h"
 
 namespace sateen::app {
@@ -17,9 +18,19 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
 /// What --dry-run says; returns the exit code.
 int report_dry_run(const PictureFlags& flags, const PictureJob& job, const SceneReport& report);
 
-/// What was written and how good it is, for people, for --json and for --stats.
-void report_picture(const PictureFlags& flags, const PictureJob& job, const SceneReport& report,
-                    const RenderResult& result, const std::vector<WrittenPicture>& written, int code);
+/// Members of an open JSON object: what was asked for and found out; how rendering went.
+void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, const SceneReport& report);
+void write_result(JsonWriter& w, const RenderResult& result, const std::vector<WrittenPicture>& written);
+/// To --stats and, with --json, to standard output.
+void write_stats(const PictureFlags& flags, const std::string& json);
+
+/// One line a file.
+void print_written(const PictureJob& job, const WrittenPicture& file);
+/// Samples, time, error and the rule that stopped; complaints about samples that were not finite.
+void print_result_line(const PictureJob& job, const RenderResult& result);
+
+/// The exit code that a finished picture asks for.
+int picture_code(const PictureFlags& flags, const RenderResult& result);
 
 /// Where progress goes: farms read standard output, people standard error.
 std::function<void(std::string_view)> progress_writer(ProgressStyle style);

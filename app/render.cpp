@@ -3,7 +3,6 @@
 #include <cmath>
 #include <set>
 
-#include "base/files.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
@@ -24,13 +23,6 @@ void describe(Command& c) {
             "one field of the look changed, seen from the right and closer");
   c.example("sateen render --env studio.hdr --env-rotate 90 --backdrop environment -s 256 -o scene.jpg",
             "the light itself behind the cloth");
-}
-
-// What the user asked for cannot be met by the rule that stopped: exit code 4.
-int quality_code(const StopRules& stop, const RenderResult& result) {
-  const bool error_missed = stop.error > 0 && result.reason != StopReason::error;
-  const bool samples_missed = stop.error <= 0 && stop.spp > 0 && result.reason == StopReason::time;
-  return error_missed || samples_missed ? quality_not_reached : done;
 }
 }  // namespace
 
@@ -78,10 +70,14 @@ int run_render(const std::vector<std::string>& words) {
   if (result.reason == StopReason::interrupted) progress.stopped();
   progress.done();
 
-  int code = quality_code(job.render.stop, result);
-  if (flags.strict && result.rays.non_finite > 0) code = not_finite;
-  if (result.reason == StopReason::interrupted) code = 128 + signal_received();
-  report_picture(flags, job, report, result, written, code);
+  for (const WrittenPicture& file : written) print_written(job, file);
+  print_result_line(job, result);
+  const int code = picture_code(flags, result);
+  JsonWriter w;
+  w.open_object();
+  write_job(w, flags, job, report);
+  write_result(w, result, written);
+  write_stats(flags, w.member("exit_code", code).close().text());
   return code;
 }
 

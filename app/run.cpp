@@ -19,9 +19,11 @@ namespace sateen::app {
 const std::vector<Subcommand>& subcommands() {
   static const std::vector<Subcommand> all{
       {"render", "one picture of a cloth", run_render},
+      {"turntable", "an orbit: frames and a sheet of them", run_turntable},
       {"look", "looks: list, check, resolve, diff, schema", run_look},
       {"lobe", "draws and prints how a look scatters light", run_lobe},
       {"env", "lights: list, inspect, make", run_env},
+      {"check", "what is wrong with looks, meshes and HDR maps, and what to do", run_check},
   };
   return all;
 }

@@ -99,8 +99,7 @@ void check_picture_path(const fs::path& path) {
     throw OperationError(fmt::format("{} is there and is not a regular file: nothing was rendered", path.string()));
   // Folders that are missing are made when the file is written: the nearest one that exists must let us.
   fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  while (!fs::exists(folder, error) && folder.has_parent_path()) folder = folder.parent_path();
-  if (folder.empty()) folder = ".";
+  while (!fs::exists(folder, error) && folder != ".") folder = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))
     throw OperationError(fmt::format("{}: {} is not a folder: nothing was rendered", path.string(), folder.string()));
   if (access(folder.c_str(), W_OK | X_OK) != 0)

@@ -82,7 +82,7 @@ void Progress::done() {
   if (ended_) return;
   ended_ = true;
   switch (style_) {
-    case ProgressStyle::bar: write_("\r\x1b[K"); break;
+    case ProgressStyle::bar: clear_line(); break;
     case ProgressStyle::lines: write_("100 %\n"); break;
     case ProgressStyle::alf: write_("ALF_PROGRESS 100%\n"); break;
     case ProgressStyle::openjd: write_("openjd_progress: 100.0\n"); break;
@@ -91,8 +91,13 @@ void Progress::done() {
   }
 }
 
+void Progress::clear_line() {
+  if (open_line_) write_("\r\x1b[K");
+  open_line_ = false;
+}
+
 void Progress::stopped() {
-  if (!ended_ && open_line_) write_("\n");
+  clear_line();
   ended_ = true;
 }
 

@@ -28,7 +28,8 @@ class Progress {
   void update(const RenderState& state);
   void finish_part();
   void done();          ///< 100 percent
-  void stopped();       ///< leaves the bar's line as it is
+  void clear_line();    ///< takes the bar away, for a line of other text
+  void stopped();       ///< no more progress: the work will not be done
 
  private:
   void tell(double percent, const RenderState* state);
