@@ -78,8 +78,8 @@ Color albedo_color(const Fabric& fabric, const Vec3& wo) {
 Fabric compile_fabric(const Look& look, const ToWorking& to_working, const FabricParts& parts) {
   Fabric fabric;
   fabric.name = look.name;
-  const auto quadrature = [](const ThreadFamily& f) {
-    return render_quadrature(f.offsets_deg, f.lengths, narrowest_lobe(f));
+  const auto quadrature = [&](const ThreadFamily& f) {
+    return render_quadrature(f.offsets_deg, f.lengths, narrowest_lobe(f), double(radians(look.masking_width_deg)));
   };
   const std::vector<Tangent> warp = quadrature(look.warp), weft = quadrature(look.weft);
   fabric.threads = compile_threads<float>(look, warp, weft);

@@ -40,7 +40,7 @@ std::vector<QuadratureNode> gauss_legendre(int count) {
 }
 
 std::vector<Tangent> tangent_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
-                                        double gamma, double panel_gammas, int nodes) {
+                                        double gamma, double panel_gammas, double panel_radians, int nodes) {
   const double total = total_length(lengths);
   const std::vector<QuadratureNode> rule = gauss_legendre(nodes);
   std::vector<Tangent> tangents;
@@ -55,23 +55,74 @@ std::vector<Tangent> tangent_quadrature(const std::vector<float>& offsets_deg, c
       if (same != tangents.end())
         same->weight += share;
       else
-        tangents.push_back({start, start, 0, share});
+        tangents.push_back({start, start, 0, share, 0, 0});
       continue;
     }
-    const int panels = std::max(1, int(std::ceil((end - start) / (panel_gammas * gamma) - 1e-9)));
+    const int panels = std::max(1, int(std::ceil((end - start) / std::min(panel_gammas * gamma, panel_radians) - 1e-6)));
     for (int k = 0; k < panels; ++k)
       for (const QuadratureNode& n : rule)
-        tangents.push_back({start, end, (k + n.position) / panels, share * n.weight / panels});
+        tangents.push_back({start, end, (k + n.position) / panels, share * n.weight / panels, double(k) / panels,
+                            double(k + 1) / panels});
   }
-  // Neighbours in offset share a block of lanes, so that whole blocks can face away from a view.
-  std::sort(tangents.begin(), tangents.end(),
-            [](const Tangent& a, const Tangent& b) { return a.offset() < b.offset(); });
+  std::stable_partition(tangents.begin(), tangents.end(), [](const Tangent& t) { return t.start != t.end; });
   return tangents;
 }
 
 std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
-                                       double gamma) {
-  return tangent_quadrature(offsets_deg, lengths, gamma, 8.0, 8);
+                                       double gamma, double masking_width) {
+  const double widest = std::min(1.25 * masking_width, 25 * to_radians);
+  return tangent_quadrature(offsets_deg, lengths, gamma, 8.0, widest, panel_nodes);
+}
+
+std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents) {
+  std::vector<Tangent> halved;
+  for (size_t i = 0; i < tangents.size();) {
+    const Tangent& first = tangents[i];
+    size_t end = i + 1;
+    while (end < tangents.size() && first.start != first.end && tangents[end].start == first.start &&
+           tangents[end].end == first.end && tangents[end].panel_from == first.panel_from)
+      ++end;
+    const double width = first.panel_to - first.panel_from;
+    const int pieces = width * (first.end - first.start) > 6 * to_radians ? 2 : 1;
+    for (int piece = 0; piece < pieces; ++piece) {
+      const double from = first.panel_from + piece * width / pieces;
+      for (size_t k = i; k < end; ++k) {
+        Tangent t = tangents[k];
+        t.node = from + (t.node - first.panel_from) / pieces;
+        t.weight /= pieces;
+        t.panel_from = from;
+        t.panel_to = from + width / pieces;
+        halved.push_back(t);
+      }
+    }
+    i = end;
+  }
+  return halved;
+}
+
+SignChange sign_change() {
+  const std::vector<QuadratureNode> rule = gauss_legendre(panel_nodes);
+  SignChange rows{};
+  for (int k = 0; k < panel_nodes; ++k) {
+    // The node's Lagrange polynomial in y = 2x - 1.
+    std::array<double, panel_nodes> lagrange{1};
+    int degree = 0;
+    for (int m = 0; m < panel_nodes; ++m) {
+      if (m == k) continue;
+      const double root = 2 * rule[m].position - 1, scale = 1 / (2 * (rule[k].position - rule[m].position));
+      ++degree;
+      for (int j = degree; j >= 0; --j)
+        lagrange[j] = ((j > 0 ? lagrange[j - 1] : 0) - root * (j < degree ? lagrange[j] : 0)) * scale;
+    }
+    // Twice its integral from -1 to y, over the weight, less 1; dx = dy / 2.
+    double at_minus_one = 0;
+    for (int j = 0; j < panel_nodes; ++j) {
+      rows[j + 1][k] = lagrange[j] / (j + 1) / rule[k].weight;
+      at_minus_one += rows[j + 1][k] * (j % 2 ? 1 : -1);
+    }
+    rows[0][k] = -at_minus_one - 1;
+  }
+  return rows;
 }
 
 double tangent_offset(const std::vector<float>& offsets_deg, const std::vector<float>& lengths, double u) {

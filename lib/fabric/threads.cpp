@@ -31,13 +31,28 @@ inline void store(double* p, double v) { *p = v; }
 constexpr float smallest_cos2 = 1e-24f;
 constexpr float smallest_projection2 = 1e-30f;
 
+// The leading tangents of a curve that form whole panels of panel_nodes.
+size_t count_panel_nodes(const std::vector<Tangent>& tangents) {
+  size_t n = 0;
+  const auto same = [](const Tangent& a, const Tangent& b) {
+    return a.start == b.start && a.end == b.end && a.panel_from == b.panel_from && a.weight > 0;
+  };
+  for (; n + panel_nodes <= tangents.size() && tangents[n].start != tangents[n].end; n += panel_nodes) {
+    const auto first = tangents.begin() + long(n);
+    const bool longer = n + panel_nodes < tangents.size() && same(first[0], first[panel_nodes]);
+    if (longer || !std::all_of(first, first + panel_nodes, [&](const Tangent& t) { return same(*first, t); })) break;
+  }
+  return n;
+}
+
 template <class Real>
-void add_family(Threads<Real>& out, const ThreadFamily& family, const std::vector<Tangent>& tangents, bool warp) {
+void add_tangents(Threads<Real>& out, const ThreadFamily& family, bool warp, const Tangent* begin, const Tangent* end) {
   constexpr double to_radians = std::numbers::pi / 180;
   const double gamma_s = family.gamma_s_deg * to_radians, gamma_v = family.gamma_v_deg * to_radians;
   const double root = std::sqrt(2 * std::numbers::pi), eta = family.eta, k_d = family.k_d;
   const int index = warp ? 0 : 1;
-  for (const Tangent& t : tangents) {
+  for (const Tangent* tangent = begin; tangent != end; ++tangent) {
+    const Tangent& t = *tangent;
     const bool flat = t.start == t.end;
     out.start.push_back(Real(t.start));
     out.span.push_back(Real(t.end - t.start));
@@ -58,6 +73,33 @@ void add_family(Threads<Real>& out, const ThreadFamily& family, const std::vecto
     out.volume_norm.push_back(Real((1 - k_d) / (gamma_v * root)));
     out.isotropic.push_back(Real(k_d));
   }
+}
+
+/// The panels of both families, each in a block of its own, then everything else.
+template <class Real>
+void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangent>& warp,
+                  const std::vector<Tangent>& weft) {
+  const ThreadFamily* families[2] = {&look.warp, &look.weft};
+  const std::vector<Tangent>* curves[2] = {&warp, &weft};
+  for (const bool in_panels : {true, false})
+    for (int family = 0; family < 2; ++family) {
+      if (!(families[family]->coverage > 0)) continue;
+      const Tangent* all = curves[family]->data();
+      const size_t nodes = count_panel_nodes(*curves[family]);
+      if (!in_panels) {
+        add_tangents(out, *families[family], family == 0, all + nodes, all + curves[family]->size());
+        continue;
+      }
+      add_tangents(out, *families[family], family == 0, all, all + nodes);
+      out.panels[family] = int(nodes / panel_nodes);
+      for (size_t n = 0; n < nodes; n += panel_nodes) {
+        out.panel_from.push_back(Real(all[n].panel_from));
+        out.panel_to.push_back(Real(all[n].panel_to));
+      }
+    }
+  const SignChange rows = sign_change();
+  for (int j = 0; j <= panel_nodes; ++j)
+    for (int k = 0; k < panel_nodes; ++k) out.sign_change[j][k] = Real(rows[j][k]);
 }
 
 template <class Real>
@@ -85,6 +127,7 @@ void facing(Real along, Real z, Real& from, Real& to) {
 template <class Real>
 void fill_view(const Threads<Real>& t, ThreadView<Real>& view) {
   using V = Vector<Real>;
+  view.threads = &t;
   const Real x = view.wo[0], y = view.wo[1], z = view.wo[2];
   const V wx = V(x), wy = V(y), wz = V(z), zero = V(Real(0)), half = V(Real(0.5));
   const V scale_warp = V(1 / std::sqrt(std::max(x * x + z * z, Real(smallest_projection2))));
@@ -120,16 +163,70 @@ void fill_view(const Threads<Real>& t, ThreadView<Real>& view) {
     }
     view.alive[block] = alive;
   }
+  for (int panel = 0; panel < t.panels[0] + t.panels[1]; ++panel) {
+    const int family = panel < t.panels[0] ? 0 : 1;
+    const Real start = t.start[panel * 8], end = start + t.span[panel * 8];
+    const Real from = std::max(start, view.from[family]), seen = std::min(end, view.to[family]) - from;
+    view.panel_start[panel] = from + seen * t.panel_from[panel];
+    view.panel_inverse[panel] = seen > 0 ? 1 / (seen * (t.panel_to[panel] - t.panel_from[panel])) : Real(0);
+  }
+}
+
+/// Offsets at which the minima in M and P of one family change their argument: m_i = m_r and p_i = p_r. Below them
+/// m_r < m_i and p_r < p_i where `side` is 1, above where it is -1.
+template <class Real>
+struct Kinks {
+  Real masking[2], projected[2], side[2];
+};
+
+template <class Real>
+Kinks<Real> find_kinks(const ThreadView<Real>& view, Real x, Real y, Real z) {
+  using V = Vector<Real>;
+  const Real d_i[2] = {x, y}, z_r = view.wo[2];
+  Kinks<Real> kinks;
+  Real across[8] = {}, along[8] = {}, angle[8];
+  for (int family = 0; family < 2; ++family) {
+    const Real d_r = view.wo[family], b_i = std::abs(d_i[1 - family]), b_r = std::abs(view.wo[1 - family]);
+    const Real side = d_i[family] * z_r > d_r * z ? Real(1) : Real(-1);
+    kinks.side[family] = side;
+    // cos phi_i = cos phi_r where n_i |b_r| = n_r |b_i|, and both are linear in sine and cosine of the offset.
+    across[family] = side * (z * b_r - z_r * b_i);
+    along[family] = side * (d_i[family] * b_r - d_r * b_i);
+    // p is the cosine of psi plus the offset: the middle between the two.
+    const Real scale = 1 / std::sqrt(std::max(d_i[family] * d_i[family] + z * z, Real(smallest_projection2)));
+    across[2 + family] = -(d_i[family] * scale + view.across_d[family]);
+    along[2 + family] = z * scale + view.across_n[family];
+  }
+  for (int k = 0; k < 4; k += width<Real>) {
+    const V a = load(&across[k]), b = max(load(&along[k]), V(Real(0)));
+    const V magnitude = atan_magnitude(a, b);
+    store(&angle[k], select_less(a, V(Real(0)), V(Real(0)) - magnitude, magnitude));
+  }
+  for (int family = 0; family < 2; ++family) {
+    kinks.masking[family] = angle[family];
+    kinks.projected[family] = angle[2 + family];
+  }
+  return kinks;
+}
+
+/// sign(place - x) as the nodes of a panel have to show it: sign_change() at `place`.
+template <class V, class Real>
+V sign_at_nodes(const Threads<Real>& t, int lane, Real place) {
+  const V y = V(2 * place - 1);
+  V s = load(&t.sign_change[panel_nodes][lane]);
+  for (int j = panel_nodes - 1; j >= 0; --j) s = fma(s, y, load(&t.sign_change[j][lane]));
+  return s;
 }
 
 }  // namespace
 
+namespace {
+
 template <class Real>
-Threads<Real> compile_threads(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
+Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
   Threads<Real> threads;
   for (int family = 0; family < 2; ++family) threads.slope_from[family] = 10, threads.slope_to[family] = -10;
-  if (look.warp.coverage > 0) add_family(threads, look.warp, warp, true);
-  if (look.weft.coverage > 0) add_family(threads, look.weft, weft, false);
+  add_families(threads, look, warp, weft);
   if (threads.start.empty()) throw InputError("the look has no threads: both coverages are 0");
   if (threads.start.size() + 8 > most_tangents)
     throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible",
@@ -150,6 +247,18 @@ Threads<Real> compile_threads(const Look& look, const std::vector<Tangent>& warp
   return threads;
 }
 
+}  // namespace
+
+template <class Real>
+Threads<Real> compile_threads(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
+  Threads<Real> threads = compile_curves<Real>(look, warp, weft);
+  const std::vector<Tangent> fine_warp = halve_panels(warp), fine_weft = halve_panels(weft);
+  const size_t count = fine_warp.size() + fine_weft.size();
+  if (count > warp.size() + weft.size() && count + 8 <= most_tangents)
+    threads.grazing.push_back(compile_curves<Real>(look, fine_warp, fine_weft));
+  return threads;
+}
+
 template <class Real>
 void prepare_view(const Threads<Real>& t, Real x, Real y, Real z, ThreadView<Real>& view) {
   view.wo[0] = x, view.wo[1] = y, view.wo[2] = z;
@@ -160,20 +269,22 @@ void prepare_view(const Threads<Real>& t, Real x, Real y, Real z, ThreadView<Rea
     view.across_n[family] = z * inverse;
     facing(d, z, view.from[family], view.to[family]);
   }
-  fill_view(t, view);
+  fill_view(z < Real(grazing_z) && !t.grazing.empty() ? t.grazing.front() : t, view);
 }
 
 template <class Real>
-ThreadSums<Real> scatter(const Threads<Real>& t, const ThreadView<Real>& view_of_wo, Real x, Real y, Real z) {
+ThreadSums<Real> scatter(const Threads<Real>& threads, const ThreadView<Real>& view_of_wo, Real x, Real y, Real z) {
   using V = Vector<Real>;
   ThreadSums<Real> out;
   if (!(z > 0) || !(view_of_wo.wo[2] > 0)) return out;
 
   // Where wi sees less of a sloping segment than wo does, the nodes gather in what both see.
+  const bool fine = !threads.grazing.empty() && (z < Real(grazing_z) || view_of_wo.wo[2] < Real(grazing_z));
+  const Threads<Real>& t = fine ? threads.grazing.front() : threads;
   const ThreadView<Real>* seen = &view_of_wo;
   ThreadView<Real> gathered;
   const Real along[2] = {x, y};
-  bool clipped = false;
+  bool clipped = view_of_wo.threads != &t;
   for (int family = 0; family < 2; ++family) {
     clipped = clipped || std::abs(along[family]) > t.clip_free[family] * z;
   }
@@ -208,9 +319,23 @@ ThreadSums<Real> scatter(const Threads<Real>& t, const ThreadView<Real>& view_of
     blend_of[family] = exp_negative(fall * half_angle_squared(q, h2, sqrt(h2)));
   }
 
+  const int panels = t.panels[0] + t.panels[1];
+  Kinks<Real> kinks;
+  if (panels > 0) kinks = find_kinks(view, x, y, z);
+
   V surface_warp = zero, surface_weft = zero, volume_warp = zero, volume_weft = zero, reweight = zero;
   for (int block = 0; block * 8 < t.count; ++block) {
     if (!view.alive[block]) continue;
+    // min(a, b) is (a + b - |a - b|) / 2. Where the panel holds the place at which a - b changes its sign,
+    // Gauss-Legendre nodes miss |a - b|, but not (a - b) times the sign that sign_at_nodes gives.
+    Real masking_kink = 0, projected_kink = 0, side = 0;
+    if (block < panels) {
+      const int family = block < t.panels[0] ? 0 : 1;
+      masking_kink = (kinks.masking[family] - view.panel_start[block]) * view.panel_inverse[block];
+      projected_kink = (kinks.projected[family] - view.panel_start[block]) * view.panel_inverse[block];
+      side = kinks.side[family];
+    }
+    const bool kink_in_m = masking_kink > 0 && masking_kink < 1, kink_in_p = projected_kink > 0 && projected_kink < 1;
     for (int k = block * 8; k < block * 8 + 8; k += width<Real>) {
       const V is_warp = load(&t.along_x[k]);
       const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
@@ -231,11 +356,30 @@ ThreadSums<Real> scatter(const Threads<Real>& t, const ThreadView<Real>& view_of
       // M and P, each a blend by u between the independent and the fully correlated case.
       const V u = exp_negative(fall * half_angle_squared(q, h2, h));
       const V mm = m_i * m_r;
-      const V masking = fma(u, min(m_i, m_r) - mm, mm);
+      V m_least = min(m_i, m_r);
+      V sign_m, sign_p;
+      if (kink_in_m) {
+        sign_m = V(side) * sign_at_nodes<V>(t, k % 8, masking_kink);
+        m_least = half * (m_i + m_r - (m_i - m_r) * sign_m);
+      }
+      const V masking = max(fma(u, m_least - mm, mm), zero);
       const V p_i = normal * select_less(half, is_warp, scale_of[0], scale_of[1]);
       const V p_r = load(&view.projected_r[k]);
       const V pp = p_i * p_r;
-      const V projected = fma(select_less(half, is_warp, blend_of[0], blend_of[1]), min(p_i, p_r) - pp, pp);
+      V p_least = min(p_i, p_r);
+      if (kink_in_p) {
+        sign_p = V(side) * sign_at_nodes<V>(t, k % 8, projected_kink);
+        p_least = half * (p_i + p_r - (p_i - p_r) * sign_p);
+      }
+      const V u_p = select_less(half, is_warp, blend_of[0], blend_of[1]);
+      const V projected = max(fma(u_p, p_least - pp, pp), zero);
+      V visible = masking * projected;
+      if (kink_in_m && kink_in_p) {
+        // The product of both signs is 1 but between the places: not the product of what the nodes show of each.
+        const V between = V(masking_kink > projected_kink ? side : -side) * (sign_m - sign_p);
+        const V product = one - between - sign_m * sign_p;
+        visible = max(fma(quarter * u * u_p * (m_i - m_r), (p_i - p_r) * product, visible), zero);
+      }
 
       // sin a + sin b over cos a + cos b is tan((a + b)/2), and the sum of their squares 4 cos^2((a - b)/2): both
       // half angles without a cancellation, even where wi and wo graze opposite ends of the thread.
@@ -261,7 +405,7 @@ ThreadSums<Real> scatter(const Threads<Real>& t, const ThreadView<Real>& view_of
 
       // cos theta_i / cos^2 theta_d, then the thread's two terms; V keeps 1 / (cos theta_i + cos theta_r) beside F_t^2.
       const V inverse_sum = one / (four_cos2_d * cos_sum);
-      const V common = masking * projected * cos_i * V(Real(4)) * (inverse_sum * cos_sum);
+      const V common = visible * cos_i * V(Real(4)) * (inverse_sum * cos_sum);
       const V surface = common * reflected * h * g_s;
       const V volume = common * (transmitted * transmitted) * g_v * (inverse_sum * four_cos2_d);
       const V w_warp = load(&view.weight_warp[k]), w_weft = load(&view.weight_weft[k]);

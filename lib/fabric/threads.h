@@ -31,14 +31,28 @@ struct Threads {
   Real slope_from[2], slope_to[2];  ///< extent of the sloping segments of warp and weft; from > to where none
   Real clip_free[2];  ///< all of them face wi while |wi.d| <= clip_free wi.z
   int count = 0;              ///< padded to a multiple of 8; the padding has no weight
+
+  /// The first blocks of 8 tangents are panels of Gauss-Legendre nodes, `panels[0]` of the warp, then `panels[1]` of the
+  /// weft: place of each panel's ends in its segment, and the integrals of sign_change().
+  int panels[2] = {0, 0};
+  std::vector<Real> panel_from, panel_to;
+  Real sign_change[panel_nodes + 1][panel_nodes];
+
+  /// The same curves with halved panels, for pairs with a direction that grazes the cloth: there everything turns faster
+  /// along a thread. One entry, or none where nothing slopes.
+  std::vector<Threads> grazing;
 };
+
+/// wi.z or wo.z below which `grazing` serves: 3.4 degrees. Errors of up to 3e-3 of the peak were all below it.
+inline constexpr float grazing_z = 0.06f;
 
 /// Most tangents that one look may need: gamma 0.5 degrees over a full curve in both families takes 840.
 inline constexpr int most_tangents = 1024;
 
 /// Everything of a tangent that depends on the view alone, once per hit. Only the first `count` entries are filled.
 /// The nodes of a sloping segment are spread over the part of it that faces the view, since the integrand has a
-/// kink where that part ends; `scatter` gathers them once more where wi sees less.
+/// kink where that part ends; `scatter` gathers them once more where wi sees less, and corrects the panels for the
+/// kinks that the minima in M and P have inside.
 template <class Real>
 struct ThreadView {
   Real cos_offset[most_tangents], sin_offset[most_tangents];
@@ -49,7 +63,9 @@ struct ThreadView {
   bool alive[most_tangents / 8];                                ///< blocks of 8 in which some tangent faces the view
   Real across_d[2], across_n[2];  ///< unit (d, n) projection of wo for warp and weft: the angle psi_r
   Real from[2], to[2];            ///< offsets of the two families that can face the view [radians]
+  Real panel_start[most_tangents / 8], panel_inverse[most_tangents / 8];  ///< where a panel lies now; 1 / its width
   Real wo[3] = {0, 0, 0};
+  const Threads<Real>* threads = nullptr;  ///< those that the arrays belong to: the look's own or their `grazing`
 };
 
 /// Compiles the quadratures of the two families. InputError when they need more than most_tangents.

@@ -24,8 +24,8 @@ inline Lanes exp_negative(Lanes x) {
 }
 inline double exp_negative(double x) { return std::exp(x); }
 
-/// atan(y / x)^2 for x > 0; the square is what a Gaussian wants. Absolute error of the angle below 1e-7.
-inline Lanes atan_squared(Lanes y, Lanes x) {
+/// atan(|y| / x) for x > 0; x may be 0 where y is not. Absolute error below 1e-7.
+inline Lanes atan_magnitude(Lanes y, Lanes x) {
   const Lanes a = abs(y);
   const Lanes r = min(a, x) / max(a, x);
   const Lanes t = r * r;
@@ -39,11 +39,14 @@ inline Lanes atan_squared(Lanes y, Lanes x) {
   p = fma(p, t, Lanes(-0.33333094f));
   p = fma(p, t, Lanes(0.999999986f));
   const Lanes small = p * r;
-  const Lanes angle = select_less(x, a, Lanes(1.57079633f) - small, small);
-  return angle * angle;
+  return select_less(x, a, Lanes(1.57079633f) - small, small);
 }
-inline double atan_squared(double y, double x) {
-  const double angle = std::atan2(y, x);
+inline double atan_magnitude(double y, double x) { return std::atan2(std::fabs(y), x); }
+
+/// atan(y / x)^2 for x > 0; the square is what a Gaussian wants.
+template <class V>
+V atan_squared(V y, V x) {
+  const V angle = atan_magnitude(y, x);
   return angle * angle;
 }
 
