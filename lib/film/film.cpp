@@ -20,17 +20,16 @@ Color pixel_mean(const FilmPixel& pixel) {
 Color pixel_variance(const FilmPixel& pixel) {
   const int used = int(std::min<std::uint32_t>(pixel.samples, replicates));
   if (used < 2) return Color(0);
-  // The mean weighs replicate r by its share of the samples; with unequal shares the scatter is weighted alike.
+  // Replicate r weighs n_r / n and its mean varies as 1 / n_r: then the weighted scatter has the expectation
+  // (replicates - 1) times the variance of the mean of all, also where the last round is not whole.
   const Color mean = pixel_mean(pixel);
   Color scatter(0);
-  double squares = 0;
   for (int r = 0; r < used; ++r) {
     const float share = float(replicate_count(pixel.samples, r)) / float(pixel.samples);
     const Color off = pixel.beauty[r] / float(replicate_count(pixel.samples, r)) - mean;
     scatter += off * off * share;
-    squares += double(share) * share;
   }
-  return scatter * float(squares / (1 - squares));
+  return scatter / float(used - 1);
 }
 
 PictureError picture_error(const Film& film) {

@@ -17,7 +17,7 @@ double filter_value(double x) {
 }
 
 // The inverse of the filter's integral at 1,025 places; between them it is linear, so the filter sampled is the
-// histogram of these steps, which differs from the curve by less than 1e-3 of a pixel.
+// histogram of these steps: the share of samples below any place is off by less than 5e-4, the variance by 0.3 %.
 constexpr int steps = 1024;
 const std::array<float, steps + 1>& inverse_integral() {
   static const std::array<float, steps + 1> table = [] {

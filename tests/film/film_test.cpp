@@ -1,0 +1,265 @@
+#include "film/film.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "film/develop.h"
+#include "statistics/z_test.h"
+
+namespace sateen {
+namespace {
+
+FilmPixel pixel_of(const std::vector<Color>& samples) {
+  FilmPixel pixel;
+  for (const Color& c : samples) pixel.beauty[pixel.samples++ % replicates] += c;
+  return pixel;
+}
+
+TEST(FilmPixel, MeanIsTheMeanOfAllSamples) {
+  std::vector<Color> samples;
+  Color sum(0);
+  for (int i = 0; i < 23; ++i) {
+    samples.push_back(Color(float(i), float(i * i), 1 - float(i)));
+    sum += samples.back();
+    const Color mean = pixel_mean(pixel_of(samples));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], sum[c] / float(i + 1), 1e-4f) << i;
+  }
+  EXPECT_EQ(pixel_mean(FilmPixel()), Color(0));
+}
+
+TEST(FilmPixel, VarianceOfEqualReplicatesIsTheirScatterOverTheirNumber) {
+  // Replicate means 1, 2, 4, 9: mean 4, sum of squares 9 + 4 + 0 + 25, over (4 - 1) and over 4.
+  std::vector<Color> samples;
+  for (int round = 0; round < 3; ++round)
+    for (const float m : {1.0f, 2.0f, 4.0f, 9.0f}) samples.push_back(Color(m, 2 * m, 0));
+  const Color variance = pixel_variance(pixel_of(samples));
+  EXPECT_NEAR(variance.x, 38.0 / 12, 1e-5);
+  EXPECT_NEAR(variance.y, 4 * 38.0 / 12, 1e-5);
+  EXPECT_EQ(variance.z, 0);
+}
+
+TEST(FilmPixel, VarianceIsUnknownBelowTwoReplicates) {
+  EXPECT_EQ(pixel_variance(FilmPixel()), Color(0));
+  EXPECT_EQ(pixel_variance(pixel_of({Color(3)})), Color(0));
+  EXPECT_GT(pixel_variance(pixel_of({Color(3), Color(4)})).x, 0);
+}
+
+// Samples of unit variance: the mean of n has variance 1 / n, whatever n. 40,000 pixels a count; deviates are below the
+// bound in all but 1e-4 of runs.
+TEST(FilmPixel, VarianceIsUnbiasedForEveryNumberOfSamples) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal(5, 1);
+  const std::vector<int> counts{2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 30};
+  const double bound = sateen_test::sidak_deviate(1e-4, double(counts.size()));
+  for (const int n : counts) {
+    sateen_test::Batches estimate;
+    for (int k = 0; k < 40000; ++k) {
+      FilmPixel pixel;
+      for (int i = 0; i < n; ++i) pixel.beauty[pixel.samples++ % replicates] += Color(normal(random));
+      estimate.add(double(pixel_variance(pixel).x) * n);
+    }
+    EXPECT_LT(std::abs(sateen_test::difference_deviate(estimate, 1.0)), bound) << n << " samples: " << estimate.mean;
+  }
+}
+
+struct Noise {
+  double mean, deviation;  ///< of one replicate's mean
+};
+
+/// A film whose replicates are normal about a mean that is known; the same number of samples everywhere.
+template <class NoiseAt>
+Film noisy_film(int width, int height, std::mt19937& random, NoiseAt&& noise_at) {
+  Film film(width, height, false);
+  std::normal_distribution<double> normal;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      FilmPixel& pixel = film.pixels[size_t(y * width + x)];
+      const Noise noise = noise_at(x, y);
+      pixel.samples = replicates;
+      for (Color& c : pixel.beauty)
+        for (int i = 0; i < 3; ++i) c[i] = float(noise.mean + noise.deviation * normal(random));
+    }
+  return film;
+}
+
+template <class NoiseAt>
+double true_error(int width, int height, NoiseAt&& noise_at) {
+  double sum = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Noise n = noise_at(x, y);
+      sum += n.deviation * n.deviation / replicates / (n.mean * n.mean + 0.01);
+    }
+  return std::sqrt(sum / (width * height));
+}
+
+struct Coverage {
+  int inside = 0, below = 0, above = 0;
+  sateen_test::Batches ratio;  ///< of E to the true one, squared
+};
+
+template <class NoiseAt>
+Coverage coverage(int width, int height, int runs, NoiseAt&& noise_at) {
+  std::mt19937 random(5);
+  const double truth = true_error(width, height, noise_at);
+  Coverage c;
+  for (int run = 0; run < runs; ++run) {
+    const PictureError e = picture_error(noisy_film(width, height, random, noise_at));
+    EXPECT_TRUE(e.known);
+    EXPECT_LE(e.low, e.error);
+    EXPECT_LE(e.error, e.high);
+    (e.high < truth ? c.below : e.low > truth ? c.above : c.inside) += 1;
+    c.ratio.add(e.error * e.error / (truth * truth));
+  }
+  return c;
+}
+
+// Mean pixel values far above the noise, so that the denominator of E is known as well. The interval shall hold the
+// truth in 95 % of 600 films: between 92 and 98 %, which it leaves by chance in less than 1e-3 of runs.
+TEST(PictureError, IntervalHoldsTheKnownErrorAsOftenAsItSays) {
+  const auto flat = [](int, int) { return Noise{2, 0.05}; };
+  const Coverage c = coverage(128, 96, 600, flat);
+  EXPECT_GE(c.inside, 552);
+  EXPECT_LE(c.inside, 588);
+  // And E itself is unbiased: 1e-3.
+  EXPECT_LT(std::abs(sateen_test::difference_deviate(c.ratio, 1.0)), sateen_test::two_sided_deviate(1e-3))
+      << c.ratio.mean;
+}
+
+// The scatter over blocks also holds what differs from block to block in truth, which is no error: such intervals may
+// be too wide, never too narrow.
+TEST(PictureError, IntervalIsNeverTooNarrowWhereNoiseDiffersFromPlaceToPlace) {
+  const auto lit_half = [](int x, int) { return x < 80 ? Noise{0.5, 0.2} : Noise{0.1, 0}; };
+  EXPECT_GE(coverage(160, 64, 100, lit_half).inside, 88);
+  const auto ramp = [](int x, int y) { return Noise{1.0 + y / 40.0, 0.01 + x / 400.0}; };
+  EXPECT_GE(coverage(160, 64, 100, ramp).inside, 88);
+}
+
+TEST(PictureError, OnePixelGivesItsOwnRelativeError) {
+  Film film(1, 1, false);
+  film.pixels[0] = pixel_of({Color(1), Color(2), Color(4), Color(9)});
+  const PictureError e = picture_error(film);
+  ASSERT_TRUE(e.known);
+  EXPECT_NEAR(e.error, std::sqrt(38.0 / 12 / (16 + 0.01)), 1e-6);
+}
+
+TEST(PictureError, PixelsWithoutSamplesDoNotCount) {
+  std::mt19937 random(3);
+  const auto flat = [](int, int) { return Noise{1, 0.1}; };
+  Film film = noisy_film(64, 48, random, flat);
+  Film larger(64, 96, false);
+  std::copy(film.pixels.begin(), film.pixels.end(), larger.pixels.begin());
+  EXPECT_EQ(picture_error(film).error, picture_error(larger).error);
+  EXPECT_FALSE(picture_error(Film(8, 8, true)).known);
+}
+
+TEST(PictureError, ADarkPictureIsJudgedAgainstATenth) {
+  std::mt19937 random(3);
+  const double e = picture_error(noisy_film(64, 64, random, [](int, int) { return Noise{0, 0.002}; })).error;
+  EXPECT_NEAR(e, 0.002 / 2 / 0.1, 0.0005);
+}
+
+Film random_film() {
+  Film film(7, 5, true);
+  std::mt19937 random(9);
+  const auto r = [&] { return float(random() % 100000) / 10000; };
+  const auto color = [&] { return Color(r(), r(), r()); };
+  for (size_t i = 0; i < film.pixels.size(); ++i) {
+    FilmPixel& pixel = film.pixels[i];
+    LayerPixel& layer = film.layers[i];
+    const int n = int(i % 9);  // the first, the tenth ... have none
+    for (int k = 0; k < n; ++k) {
+      Color total(0);
+      for (Color* part : {&layer.surface[0], &layer.surface[1], &layer.volume[0], &layer.volume[1], &layer.indirect,
+                          &layer.backdrop}) {
+        const Color c = color();
+        *part += c;
+        total += c;
+      }
+      pixel.beauty[pixel.samples++ % replicates] += total;
+      pixel.alpha += k % 2 ? 1.0f : 0.25f;
+      if (k % 3 == 0) continue;
+      ++layer.hits;
+      layer.albedo += Color(0.25f, 0.5f, 0.75f);
+      layer.normal += Vec3(0, 0, 1);
+      layer.warp += Vec3(1, 0, 0);
+      layer.position += Vec3(float(i), 2, 3);
+      layer.uv += Vec2(0.5f, float(i));
+    }
+  }
+  return film;
+}
+
+const ImageLayer& named(const std::vector<ImageLayer>& all, const std::string& name) {
+  for (const ImageLayer& layer : all)
+    if (layer.name == name) return layer;
+  throw std::runtime_error("no layer " + name);
+}
+
+void expect_sum(const std::vector<ImageLayer>& all, const std::string& whole, const std::vector<std::string>& parts) {
+  const Image& sum = named(all, whole).image;
+  for (int y = 0; y < sum.height; ++y)
+    for (int x = 0; x < sum.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        double added = 0;
+        for (const std::string& part : parts) added += double(named(all, part).image.at(x, y)[c]);
+        EXPECT_NEAR(sum.at(x, y)[c], added, 4e-6 * (1 + std::abs(added))) << whole << " at " << x << ", " << y;
+      }
+}
+
+TEST(Layers, AddUpToTheBeauty) {
+  const std::vector<ImageLayer> all = develop_layers(random_film());
+  expect_sum(all, "", {"surface", "volume", "indirect", "backdrop"});
+  expect_sum(all, "", {"direct", "indirect", "backdrop"});
+  expect_sum(all, "direct", {"warp_surface", "warp_volume", "weft_surface", "weft_volume"});
+  expect_sum(all, "surface", {"warp_surface", "weft_surface"});
+  expect_sum(all, "volume", {"warp_volume", "weft_volume"});
+}
+
+TEST(Layers, GeometryIsAMeanOverTheSamplesThatMetCloth) {
+  const Film film = random_film();
+  const std::vector<ImageLayer> all = develop_layers(film);
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x) {
+      const size_t i = size_t(y * film.width + x);
+      const float met = film.layers[i].hits ? 1.0f : 0.0f;
+      EXPECT_FLOAT_EQ(named(all, "albedo").image.at(x, y)[1], 0.5f * met);
+      EXPECT_FLOAT_EQ(named(all, "N").image.at(x, y)[2], met);
+      EXPECT_FLOAT_EQ(named(all, "warp").image.at(x, y)[0], met);
+      EXPECT_FLOAT_EQ(named(all, "P").image.at(x, y)[0], float(i) * met);
+      EXPECT_FLOAT_EQ(named(all, "uv").image.at(x, y)[1], float(i) * met);
+      EXPECT_EQ(named(all, "samples").image.at(x, y)[0], float(film.pixels[i].samples));
+      const Color variance = pixel_variance(film.pixels[i]);
+      for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(named(all, "error").image.at(x, y)[c], std::sqrt(variance[c]));
+    }
+}
+
+TEST(Layers, BeautyComesFirstWithAlphaAndAFilmWithoutLayersHasOnlyErrorAndSamplesBeside) {
+  Film film(2, 1, false);
+  film.pixels[0] = pixel_of({Color(2), Color(4)});
+  film.pixels[0].alpha = 1;
+  const std::vector<ImageLayer> all = develop_layers(film);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].name, "");
+  EXPECT_TRUE(all[0].half);
+  EXPECT_EQ(all[0].image.at(0, 0)[0], 3);
+  EXPECT_EQ(all[0].image.at(0, 0)[3], 0.5f);
+  EXPECT_EQ(all[0].image.at(1, 0)[3], 0);
+  EXPECT_EQ(all[1].name, "error");
+  EXPECT_EQ(all[2].name, "samples");
+}
+
+TEST(Composite, PutsTheGroundWhereThePictureIsOpen) {
+  Image beauty(2, 1, 4);
+  const float values[] = {1, 2, 3, 1, 0.5f, 0.25f, 0, 0.5f};
+  std::copy(std::begin(values), std::end(values), beauty.pixels.begin());
+  const Image out = composite(beauty, Color(10, 20, 40));
+  EXPECT_EQ(out.at(0, 0)[2], 3);
+  EXPECT_EQ(out.at(1, 0)[0], 5.5f);
+  EXPECT_EQ(out.at(1, 0)[2], 20);
+}
+
+}  // namespace
+}  // namespace sateen
