@@ -6,14 +6,19 @@
 #include "mesh/shape_cages.h"
 
 // The assembler takes the files in as they are: no generated source of a megabyte to compile.
-#define SATEEN_EMBED(name)                                     \
-  asm(".pushsection .rodata\n"                                 \
-      ".hidden sateen_" #name "_obj, sateen_" #name "_obj_end\n" \
-      ".globl sateen_" #name "_obj, sateen_" #name "_obj_end\n"  \
-      "sateen_" #name "_obj:\n"                                \
-      ".incbin \"" SATEEN_SHAPES_DIR "/" #name ".obj\"\n"      \
-      "sateen_" #name "_obj_end:\n"                            \
-      ".popsection\n");                                        \
+#define SATEEN_EMBED(name)                          \
+  asm(".pushsection .rodata\n"                      \
+      ".hidden sateen_" #name "_obj, sateen_" #name \
+      "_obj_end\n"                                  \
+      ".globl sateen_" #name "_obj, sateen_" #name  \
+      "_obj_end\n"                                  \
+      "sateen_" #name                               \
+      "_obj:\n"                                     \
+      ".incbin \"" SATEEN_SHAPES_DIR "/" #name      \
+      ".obj\"\n"                                    \
+      "sateen_" #name                               \
+      "_obj_end:\n"                                 \
+      ".popsection\n");                             \
   extern "C" __attribute__((visibility("hidden"))) const char sateen_##name##_obj[], sateen_##name##_obj_end[]
 
 SATEEN_EMBED(drape);
@@ -37,8 +42,12 @@ ControlMesh in_metres(const std::string& name) {
 }
 }  // namespace
 
-ControlMesh drape() { return in_metres("drape"); }
-ControlMesh skirt() { return in_metres("skirt"); }
+ControlMesh drape() {
+  return in_metres("drape");
+}
+ControlMesh skirt() {
+  return in_metres("skirt");
+}
 
 }  // namespace shapes
 

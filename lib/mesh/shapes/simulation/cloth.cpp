@@ -23,7 +23,9 @@ Matrix6 inverse(Matrix6 a) {
   return r;
 }
 
-double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
+double cross(const Vec2d& a, const Vec2d& b) {
+  return a.x * b.y - a.y * b.x;
+}
 
 }  // namespace
 
@@ -56,7 +58,7 @@ std::vector<Stencil> bending_stencils(const Cloth& cloth) {
       const int centre = cloth.at(i, j);
       const double scale = 1 / std::sqrt(areas[centre]);
       Stencil s{};
-      s.root_area = std::sqrt(areas[centre]);
+      s.area = areas[centre];
       std::array<std::array<double, 6>, 9> basis;
       std::array<double, 9> importance;
       Matrix6 normal{};
@@ -94,8 +96,8 @@ void smooth(Cloth& cloth, int iterations) {
   // The border is stiff on one side only; it takes the step of the inside, or it would run ahead of it.
   for (int j = 0; j < cloth.rows; ++j)
     for (int i = 0; i < cloth.columns; ++i)
-      bound[cloth.at(i, j)] = bound[cloth.at(cloth.closed ? i : std::clamp(i, 2, cloth.columns - 3),
-                                             std::clamp(j, 2, cloth.rows - 3))];
+      bound[cloth.at(i, j)] =
+          bound[cloth.at(cloth.closed ? i : std::clamp(i, 2, cloth.columns - 3), std::clamp(j, 2, cloth.rows - 3))];
   for (int n = 0; n < iterations; ++n) {
     std::vector<Vec3d> force(cloth.positions.size(), Vec3d(0));
     for (const Stencil& s : stencils) {
@@ -134,8 +136,8 @@ Cloth refine(const Cloth& coarse, const std::function<Vec2d(double, double)>& pa
   const auto both = [&](const std::vector<Vec3d>& from) {
     std::vector<std::vector<Vec3d>> rows;
     for (int j = 0; j < coarse.rows; ++j)
-      rows.push_back(doubled({from.begin() + j * coarse.columns, from.begin() + (j + 1) * coarse.columns},
-                             coarse.closed));
+      rows.push_back(
+          doubled({from.begin() + j * coarse.columns, from.begin() + (j + 1) * coarse.columns}, coarse.closed));
     std::vector<Vec3d> to(count), column(coarse.rows);
     for (int i = 0; i < fine.columns; ++i) {
       for (int j = 0; j < coarse.rows; ++j) column[j] = rows[j][i];

@@ -25,11 +25,11 @@ struct Cloth {
 
 /// What the cloth is made of. Defaults: a heavy (duchess) satin, 120 g/m2.
 struct ClothMaterial {
-  double density = 0.12;   ///< [kg/m2]
-  double stretch = 900;    ///< along the threads [N/m]; real satins 300 to 2000
-  double shear = 30;       ///< across the diagonal of the weave [N/m]; satins 20 to 60
-  double bending = 2e-5;   ///< [N m]; with the density it sets the width of a fold, (bending / density g)^(1/3)
-  double least_radius = 0.016;  ///< no fold is sharper [m]: what a cage of 11 mm cells can show smoothly
+  double density = 0.12;        ///< [kg/m2]
+  double stretch = 900;         ///< along the threads [N/m]; real satins 300 to 2000
+  double shear = 30;            ///< across the diagonal of the weave [N/m]; satins 20 to 60
+  double bending = 2e-5;        ///< [N m]; with the density it sets the width of a fold, (bending / density g)^(1/3)
+  double least_radius = 0.018;  ///< bending stiffens with the fourth power of (least_radius / radius) [m]
   double bending_damping = 2e-3;  ///< [s], relative to the bending stiffness
   double thickness = 0.005;  ///< distance kept between layers [m]: that of the rendered surfaces, not of a real satin
   double friction = 0.25;    ///< cloth on cloth
@@ -43,6 +43,7 @@ struct SolidDistance {
 struct Solid {
   std::function<SolidDistance(const Vec3d&)> distance;
   double friction = 0.3;
+  Vec3d velocity{0, 0, 0};  ///< [m/s]; the solid starts each call of simulate() where `distance` has it
 };
 
 /// Moving surroundings in the cloth's frame of reference.
@@ -57,9 +58,10 @@ struct Surroundings {
 /// Advances the cloth by `seconds`; stops early once nothing moves faster than `rest_speed` [m/s]. Extended
 /// position-based dynamics (Macklin et al. 2016) in small steps (Macklin et al. 2019), double precision, one thread,
 /// always the same order: the same bits in every run.
+/// `sweeps` Gauss-Seidel passes a step: 2 to move, 10 and more to carry the whole weight at rest without stretch.
 /// Returns the fastest speed in the last step [m/s].
 double simulate(Cloth& cloth, const ClothMaterial& material, const Surroundings& surroundings, double seconds,
-                double time_step, double rest_speed);
+                double time_step, int sweeps, double rest_speed);
 
 /// Four-point interpolation to twice the cells in each direction; pattern by `pattern_at` (column, row as
 /// fractions of the grid, 0 to 1).
@@ -75,7 +77,7 @@ void smooth(Cloth& cloth, int iterations);
 struct Stencil {
   std::array<int, 9> vertices;
   std::array<double, 9> weights;
-  double root_area;  ///< square root of the area that the weights were multiplied by [m]
+  double area;  ///< of the vertex in the middle [m2]
 };
 /// Three stencils a vertex inside the grid: d2/du2, sqrt(2) d2/dudv, d2/dv2 [1/m2], each times the square root of
 /// the vertex's area, so that bending / 2 times the sum of squares is the energy of an inextensible sheet.

@@ -8,7 +8,6 @@ namespace sateen {
 namespace {
 
 constexpr double gravity = 9.81;
-constexpr int sweeps = 2;  // Gauss-Seidel sweeps a step; small steps do more for convergence than more sweeps
 
 struct Spring {
   int a, b;
@@ -39,12 +38,15 @@ struct Step {
   const ClothMaterial& material;
   const Surroundings& around;
   double dt;
+  int sweeps;
   std::vector<Spring> springs;
   std::vector<Stencil> stencils;
   SelfContact self_contact;
   std::vector<Vec3d> before;
+  double time = 0;
 
   void predict() {
+    time += dt;
     const double keep = std::exp(-around.drag * dt);
     for (std::size_t i = 0; i < before.size(); ++i) {
       before[i] = cloth.positions[i];
@@ -59,7 +61,7 @@ struct Step {
   }
 
   void bend() {
-    const double compliance = 1 / (material.bending * dt * dt), damping = material.bending_damping / dt;
+    const double damping = material.bending_damping / dt;
     std::vector<Vec3d>& x = cloth.positions;
     for (const Stencil& s : stencils) {
       Vec3d c(0), change(0);
@@ -70,10 +72,9 @@ struct Step {
         change += (x[v] - before[v]) * s.weights[k];
         sum += s.weights[k] * s.weights[k] * cloth.inverse_mass[v];
       }
-      Vec3d lambda = (c + change * damping) * (-1 / ((1 + damping) * sum + compliance));
-      // Curvature beyond the least radius is not resisted but refused.
-      const double bound = s.root_area / material.least_radius, excess = (c + lambda * sum).length() - bound;
-      if (excess > 0) lambda -= c * (excess / (c.length() * sum));
+      const double sharpness = c.length2() * (material.least_radius * material.least_radius / s.area);
+      const double stiffness = material.bending * (1 + sharpness * sharpness), compliance = 1 / (stiffness * dt * dt);
+      const Vec3d lambda = (c + change * damping) * (-1 / ((1 + damping) * sum + compliance));
       for (int k = 0; k < 9; ++k) x[s.vertices[k]] += lambda * (s.weights[k] * cloth.inverse_mass[s.vertices[k]]);
     }
   }
@@ -95,11 +96,11 @@ struct Step {
       for (std::size_t i = 0; i < before.size(); ++i) {
         if (cloth.inverse_mass[i] == 0) continue;
         Vec3d& x = cloth.positions[i];
-        const SolidDistance d = solid.distance(x);
+        const SolidDistance d = solid.distance(x - solid.velocity * time);
         const double depth = around.gap - d.distance;
         if (depth <= 0) continue;
         x += d.normal * depth;
-        const Vec3d slip = x - before[i], along = slip - d.normal * slip.dot(d.normal);
+        const Vec3d slip = x - before[i] - solid.velocity * dt, along = slip - d.normal * slip.dot(d.normal);
         const double s = along.length();
         if (s > 0) x -= along * (std::min(solid.friction * depth, s) / s);
       }
@@ -129,7 +130,7 @@ struct Step {
 }  // namespace
 
 double simulate(Cloth& cloth, const ClothMaterial& material, const Surroundings& surroundings, double seconds,
-                double time_step, double rest_speed) {
+                double time_step, int sweeps, double rest_speed) {
   const std::vector<double> areas = vertex_areas(cloth);
   for (std::size_t i = 0; i < areas.size(); ++i)
     if (cloth.inverse_mass[i] > 0) cloth.inverse_mass[i] = 1 / (material.density * areas[i]);
@@ -137,6 +138,7 @@ double simulate(Cloth& cloth, const ClothMaterial& material, const Surroundings&
             material,
             surroundings,
             time_step,
+            sweeps,
             springs_of(cloth, material),
             bending_stencils(cloth),
             SelfContact(cloth, material.thickness, material.friction),

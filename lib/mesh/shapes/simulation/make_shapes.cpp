@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "mesh/shapes/simulation/cloth.h"
@@ -19,6 +20,7 @@ namespace sateen {
 namespace {
 
 constexpr double tau = 2 * std::numbers::pi;
+constexpr double coarse_step = 1.0 / 900, fine_step = 1.0 / 1500;  // [s]
 
 Solid sphere(const Vec3d& centre, double radius, double friction) {
   return {[=](const Vec3d& p) -> SolidDistance {
@@ -29,15 +31,36 @@ Solid sphere(const Vec3d& centre, double radius, double friction) {
           friction};
 }
 
-Solid floor_at_zero(double friction) {
-  return {[](const Vec3d& p) -> SolidDistance { return {p.y, {0, 1, 0}}; }, friction};
+/// Distance to first order, by the gradient of the implicit function.
+Solid ellipsoid(const Vec3d& centre, const Vec3d& radii, double friction) {
+  return {[=](const Vec3d& p) -> SolidDistance {
+            const Vec3d q = (p - centre) / radii, gradient = q / radii;
+            const double k = q.length(), g = gradient.length();
+            return {k > 0 ? k * (k - 1) / g : -radii.y, g > 0 ? gradient / g : Vec3d(0, 1, 0)};
+          },
+          friction};
 }
 
-void report(const std::string& name, const Cloth& cloth) {
+Solid floor_at(double height, double friction) {
+  return {[=](const Vec3d& p) -> SolidDistance { return {p.y - height, {0, 1, 0}}; }, friction};
+}
+
+/// On the final grid: move, come to rest, then carry the weight without stretch. Returns the fastest speed [m/s].
+double settle(Cloth& cloth, const ClothMaterial& satin, Surroundings around) {
+  around.drag = 3;
+  simulate(cloth, satin, around, 0.8, fine_step, 2, 0);
+  around.drag = 10;
+  simulate(cloth, satin, around, 0.6, fine_step, 2, 0.002);
+  around.drag = 15;
+  return simulate(cloth, satin, around, 0.3, 1.0 / 2000, 12, 0.001);
+}
+
+void report(const std::string& name, const Cloth& cloth, double speed) {
   double low = 1e30, high = 0, squares = 0;
   int count = 0;
   const auto edge = [&](int a, int b) {
-    const double r = (cloth.positions[a] - cloth.positions[b]).length() / (cloth.pattern[a] - cloth.pattern[b]).length();
+    const double rest = (cloth.pattern[a] - cloth.pattern[b]).length();
+    const double r = (cloth.positions[a] - cloth.positions[b]).length() / rest;
     low = std::min(low, r), high = std::max(high, r), squares += (r - 1) * (r - 1), ++count;
   };
   for (int j = 0; j < cloth.rows; ++j)
@@ -48,16 +71,18 @@ void report(const std::string& name, const Cloth& cloth) {
   Vec3d from = cloth.positions[0], to = from;
   for (const Vec3d& p : cloth.positions)
     for (int k = 0; k < 3; ++k) from[k] = std::min(from[k], p[k]), to[k] = std::max(to[k], p[k]);
-  fmt::print("{}: {} x {}, edges {:.4f} to {:.4f} of rest (rms {:.4f}), crossings {}, box {:.3f} {:.3f} {:.3f} to "
-             "{:.3f} {:.3f} {:.3f}\n",
-             name, cloth.columns, cloth.rows, low, high, std::sqrt(squares / count),
-             count_crossings(cloth.positions, cloth_triangles(cloth)), from.x, from.y, from.z, to.x, to.y, to.z);
+  fmt::print(
+      "{}: {} x {}, edges {:.4f} to {:.4f} of rest (rms {:.4f}), crossings {}, box {:.3f} {:.3f} {:.3f} to "
+      "{:.3f} {:.3f} {:.3f}, fastest {:.4f} m/s\n",
+      name, cloth.columns, cloth.rows, low, high, std::sqrt(squares / count),
+      count_crossings(cloth.positions, cloth_triangles(cloth)), from.x, from.y, from.z, to.x, to.y, to.z, speed);
   std::fflush(stdout);
 }
 
 void write_obj(const Cloth& cloth, const std::filesystem::path& path, const std::string& comment) {
   std::ofstream out(path);
-  out << "# " << comment << "\n# Made by lib/mesh/shapes/simulation/make_shapes.cpp; metres, Y up, texture coordinates in metres.\n";
+  out << "# " << comment
+      << "\n# Made by lib/mesh/shapes/simulation/make_shapes.cpp; metres, Y up, texture coordinates in metres.\n";
   const auto number = [](double x) {
     std::string s = fmt::format("{:.5f}", x);
     while (s.back() == '0') s.pop_back();
@@ -71,7 +96,7 @@ void write_obj(const Cloth& cloth, const std::filesystem::path& path, const std:
       out << fmt::format("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", 1 + cloth.at(i, j), 1 + cloth.at(i + 1, j),
                          1 + cloth.at(i + 1, j + 1), 1 + cloth.at(i, j + 1));
   out.close();
-  if (!out) throw std::runtime_error("could not write " + path.string());
+  if (!out) throw std::runtime_error(fmt::format("could not write {}", path.string()));
 }
 
 Cloth grid(int columns, int rows, bool closed, const std::function<Vec2d(double, double)>& pattern_at) {
@@ -85,37 +110,46 @@ Cloth grid(int columns, int rows, bool closed, const std::function<Vec2d(double,
   return cloth;
 }
 
+void turn_about_y(Cloth& cloth, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (Vec3d& p : cloth.positions) p = {c * p.x + s * p.z, p.y, c * p.z - s * p.x};
+}
+
+/// Hangs freely over a ball first, so that the folds fall as they like; then the floor comes up under the hem.
 Cloth make_drape() {
-  constexpr double side = 1.1;
+  constexpr double side = 1.15, top = 0.46, radius = 0.12, floor = -0.3, rise = 0.15;
   const auto pattern_at = [](double a, double b) { return Vec2d(side * a, side * b); };
   Cloth cloth = grid(51, 51, false, pattern_at);
-  const double turn = 0.62, c = std::cos(turn), s = std::sin(turn);
+  const double c = std::cos(0.25), s = std::sin(0.25);
   for (const Vec2d& p : cloth.pattern) {
-    const double u = p.x - 0.5 * side + 0.035, v = p.y - 0.5 * side - 0.02;
+    // Off the middle and a little uneven: the folds shall choose their own places.
+    const double u = p.x - 0.5 * side + 0.05, v = p.y - 0.5 * side - 0.03;
     const double x = c * u - s * v, z = -(s * u + c * v);
-    // A little unevenness, so that the folds choose their own places.
     const double lift = 0.006 * std::sin(5.1 * x + 2.3 * z + 1.0) + 0.005 * std::sin(-3.7 * x + 6.3 * z + 0.4) +
                         0.004 * std::sin(9.1 * x + 4.9 * z + 2.2);
-    cloth.positions.push_back({x, 0.43 + lift, z});
+    cloth.positions.push_back({x, top + 0.015 + lift, z});
   }
   ClothMaterial satin;
+  satin.bending = 6e-6;
+  satin.least_radius = 0.024;
+  satin.thickness = 0.009;
   Surroundings around;
-  around.solids = {sphere({0, 0.26, 0}, 0.16, 0.25), floor_at_zero(0.35)};
-  satin.thickness = 0.008;
-  around.drag = 3;
-  double speed = simulate(cloth, satin, around, 2.5, 1.0 / 800, 0);
-  around.drag = 8;
-  speed = simulate(cloth, satin, around, 1.0, 1.0 / 800, 2e-3);
-  report(fmt::format("drape, coarse, speed {:.4f}", speed), cloth);
+  around.solids = {sphere({0, top - radius, 0}, radius, 0.25), floor_at(floor, 0.35)};
+  simulate(cloth, satin, around, 2.0, coarse_step, 2, 0);
+  around.solids[1].velocity = {0, rise, 0};
+  simulate(cloth, satin, around, -floor / rise, coarse_step, 2, 0);
+  around.solids[1] = floor_at(0, 0.35);
+  simulate(cloth, satin, around, 0.7, coarse_step, 2, 0);
+  around.drag = 6;
+  double speed = simulate(cloth, satin, around, 0.3, coarse_step, 2, 0.002);
+  report("drape, coarse", cloth, speed);
+
   cloth = refine(cloth, pattern_at);
-  satin.thickness = 0.005;
-  around.drag = 3;
-  speed = simulate(cloth, satin, around, 1.0, 1.0 / 1500, 2e-3);
-  around.drag = 12;
-  speed = simulate(cloth, satin, around, 1.0, 1.0 / 1500, 1e-3);
-  report(fmt::format("drape, fine, speed {:.4f}", speed), cloth);
-  smooth(cloth, 4);
-  report("drape, smoothed", cloth);
+  satin.least_radius = 0.018;
+  satin.thickness = 0.006;
+  speed = settle(cloth, satin, around);
+  report("drape", cloth, speed);
+  turn_about_y(cloth, 0.96 * std::numbers::pi);  // its best side to the front
   return cloth;
 }
 
@@ -127,10 +161,16 @@ Cloth make_skirt() {
     return Vec2d(r * std::cos(tau * around_it), r * std::sin(tau * around_it));
   };
   const auto hold = [](Cloth& cloth) {
-    for (int i = 0; i < cloth.columns; ++i) {
+    // The waist is an ellipse of the ring's own length, its vertices at equal steps along it.
+    constexpr int fine = 20000;
+    const auto ellipse = [](double t) { return Vec3d(1.1 * std::cos(t), 0, -0.8953 * std::sin(t)) * waist; };
+    std::vector<double> arc(fine + 1, 0.0);
+    for (int k = 0; k < fine; ++k)
+      arc[k + 1] = arc[k] + (ellipse(tau * (k + 1) / fine) - ellipse(tau * k / fine)).length();
+    for (int i = 0, k = 0; i < cloth.columns; ++i) {
+      while (arc[k] < arc[fine] * i / cloth.columns) ++k;
       const int v = cloth.at(i, cloth.rows - 1);
-      const double angle = tau * i / cloth.columns;
-      cloth.positions[v] = {1.1 * waist * std::cos(angle), height, -0.888 * waist * std::sin(angle)};
+      cloth.positions[v] = ellipse(tau * k / fine) + Vec3d(0, height, 0);
       cloth.inverse_mass[v] = 0;
       cloth.velocities[v] = Vec3d(0);
     }
@@ -138,40 +178,30 @@ Cloth make_skirt() {
   Cloth cloth = grid(112, 23, true, pattern_at);
   for (const Vec2d& p : cloth.pattern) {
     const double reach = p.length() - waist, angle = std::atan2(p.y, p.x);
-    const double lift = reach * (0.05 * std::sin(3 * angle + 0.4) + 0.05 * std::sin(5 * angle + 2.1) +
-                                 0.07 * std::sin(8 * angle + 1.3) + 0.05 * std::sin(11 * angle + 0.2));
+    const double lift = reach * (0.08 * std::sin(2 * angle + 0.4) + 0.09 * std::sin(5 * angle + 2.1) +
+                                 0.10 * std::sin(7 * angle + 1.3) + 0.08 * std::sin(11 * angle + 0.2));
     cloth.positions.push_back({p.x, height - 0.25 * reach + lift, -p.y});
   }
   hold(cloth);
   ClothMaterial satin;
-  satin.shear = 200;
-  Surroundings around;
-  around.solids = {{[](const Vec3d& p) -> SolidDistance {
-                      // Hips: an ellipsoid; distance by the gradient of its implicit function.
-                      const Vec3d centre(0, 0.56, 0), radii(0.17, 0.24, 0.14);
-                      const Vec3d q = (p - centre) / radii;
-                      const Vec3d gradient = q / radii;
-                      const double k = q.length(), g = gradient.length();
-                      return {k > 0 ? k * (k - 1) / g : -0.1, g > 0 ? gradient / g : Vec3d(0, 1, 0)};
-                    },
-                    0.2}};
-  around.spin = 1.5;
+  satin.shear = 200;  // rings and rays are not the threads: stiff in every direction
+  satin.bending = 7e-6;
+  satin.least_radius = 0.022;
   satin.thickness = 0.008;
-  around.drag = 3;
-  double speed = simulate(cloth, satin, around, 2.5, 1.0 / 800, 0);
+  Surroundings around;
+  around.solids = {ellipsoid({0, 0.55, 0}, {0.165, 0.23, 0.135}, 0.2)};
+  around.spin = 1.5;
+  simulate(cloth, satin, around, 2.5, coarse_step, 2, 0);
   around.drag = 8;
-  speed = simulate(cloth, satin, around, 1.0, 1.0 / 800, 2e-3);
-  report(fmt::format("skirt, coarse, speed {:.4f}", speed), cloth);
+  double speed = simulate(cloth, satin, around, 0.5, coarse_step, 2, 0.002);
+  report("skirt, coarse", cloth, speed);
+
   cloth = refine(cloth, pattern_at);
   hold(cloth);
-  satin.thickness = 0.005;
-  around.drag = 3;
-  speed = simulate(cloth, satin, around, 1.0, 1.0 / 1500, 2e-3);
-  around.drag = 12;
-  speed = simulate(cloth, satin, around, 1.0, 1.0 / 1500, 1e-3);
-  report(fmt::format("skirt, fine, speed {:.4f}", speed), cloth);
-  smooth(cloth, 4);
-  report("skirt, smoothed", cloth);
+  satin.least_radius = 0.018;
+  satin.thickness = 0.006;
+  speed = settle(cloth, satin, around);
+  report("skirt", cloth, speed);
   return cloth;
 }
 

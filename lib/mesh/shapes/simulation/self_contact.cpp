@@ -37,7 +37,8 @@ class CellGrid {
   }
   int cell_of(const Vec3d& p) const {
     int index = 0;
-    for (int k = 2; k >= 0; --k) index = index * size_[k] + std::clamp(int((p[k] - origin_[k]) / cell_), 0, size_[k] - 1);
+    for (int k = 2; k >= 0; --k)
+      index = index * size_[k] + std::clamp(int((p[k] - origin_[k]) / cell_), 0, size_[k] - 1);
     return index;
   }
   template <class Visit>
@@ -115,11 +116,8 @@ std::vector<std::array<int, 2>> edges_of(const std::vector<std::array<int, 3>>& 
 }  // namespace
 
 SelfContact::SelfContact(const Cloth& cloth, double thickness, double friction)
-    : triangles_(cloth_triangles(cloth)),
-      edges_(edges_of(triangles_)),
-      thickness_(thickness),
-      friction_(friction),
-      margin_(0.6 * thickness) {
+    : triangles_(cloth_triangles(cloth)), edges_(edges_of(triangles_)), thickness_(thickness), friction_(friction) {
+  columns_ = cloth.columns, closed_ = cloth.closed;
   for (const Vec2d& p : cloth.pattern) pattern_.push_back({p.x, p.y, 0});
   for (const auto& e : edges_) longest_ = std::max(longest_, (pattern_[e[0]] - pattern_[e[1]]).length());
 }
@@ -128,14 +126,21 @@ double SelfContact::pair_thickness(const std::array<int, 4>& v, bool edges) cons
   return std::min(thickness_, 0.5 * blend(nearest(edges, v, pattern_), v, pattern_).length());
 }
 
+bool SelfContact::neighbours(int a, int b) const {
+  const int rows = std::abs(a / columns_ - b / columns_), columns = std::abs(a % columns_ - b % columns_);
+  return rows <= 1 && (columns <= 1 || (closed_ && columns == columns_ - 1));
+}
+
 void SelfContact::find_pairs(const std::vector<Vec3d>& x) {
   found_at_ = x;
   vertex_triangle_.clear();
   edge_edge_.clear();
   const double reach = thickness_ + margin_, cell = longest_ + reach;
   const auto keep = [&](std::vector<Pair>& pairs, const std::array<int, 4>& v, bool edges) {
+    const double distance = blend(nearest(edges, v, x), v, x).length();
+    if (distance >= reach) return;
     const double h = pair_thickness(v, edges);
-    if (blend(nearest(edges, v, x), v, x).length() < h + margin_) pairs.push_back({v, h});
+    if (distance < h + margin_) pairs.push_back({v, h, distance - h});
   };
 
   std::vector<Box> boxes(triangles_.size());
@@ -150,7 +155,7 @@ void SelfContact::find_pairs(const std::vector<Vec3d>& x) {
     const int c = triangle_cells.cell_of(x[v]);
     for (const int* i = triangle_cells.begin(c); i != triangle_cells.end(c); ++i) {
       const auto& t = triangles_[*i];
-      if (v != t[0] && v != t[1] && v != t[2] && overlap(point, boxes[*i]))
+      if (!(neighbours(v, t[0]) && neighbours(v, t[2])) && overlap(point, boxes[*i]))
         keep(vertex_triangle_, {v, t[0], t[1], t[2]}, false);
     }
   }
@@ -165,19 +170,31 @@ void SelfContact::find_pairs(const std::vector<Vec3d>& x) {
     for (const int* i = edge_cells.begin(c); i != edge_cells.end(c); ++i)
       for (const int* j = i + 1; j < edge_cells.end(c); ++j) {
         const auto &a = edges_[*i], &b = edges_[*j];
-        if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1] || !overlap(boxes[*i], boxes[*j])) continue;
+        if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) continue;
+        if ((neighbours(a[0], b[0]) && neighbours(a[1], b[1])) || !overlap(boxes[*i], boxes[*j])) continue;
         Vec3d corner;  // a pair may share several cells: take it in the one that holds the overlap's low corner
         for (int k = 0; k < 3; ++k) corner[k] = std::max(boxes[*i].low[k], boxes[*j].low[k]);
         if (edge_cells.cell_of(corner) == c) keep(edge_edge_, {a[0], a[1], b[0], b[1]}, true);
       }
+  const auto nearer = [](const Pair& a, const Pair& b) { return a.slack < b.slack; };
+  std::stable_sort(vertex_triangle_.begin(), vertex_triangle_.end(), nearer);
+  std::stable_sort(edge_edge_.begin(), edge_edge_.end(), nearer);
 }
 
 void SelfContact::resolve(std::vector<Vec3d>& x, const std::vector<Vec3d>& before,
                           const std::vector<double>& inverse_mass) {
-  double moved = found_at_.empty() ? 1e30 : 0;
-  for (std::size_t i = 0; i < found_at_.size(); ++i) moved = std::max(moved, (x[i] - found_at_[i]).length2());
-  // Pairs come from the start of the step, where no layers cross.
-  if (std::sqrt(moved) > 0.5 * margin_) find_pairs(before);
+  const auto farthest = [&](const std::vector<Vec3d>& from) {
+    double squared = from.empty() ? 1e30 : 0;
+    for (std::size_t i = 0; i < from.size(); ++i) squared = std::max(squared, (x[i] - from[i]).length2());
+    return std::sqrt(squared);
+  };
+  double reached = farthest(found_at_);
+  if (reached > 0.5 * margin_) {
+    // Far enough to serve for some steps. Pairs come from the start of the step, where no layers cross.
+    reached = farthest(before);
+    margin_ = std::clamp(4 * reached, 0.3 * thickness_, 0.8 * thickness_);
+    find_pairs(before);
+  }
 
   const auto push = [&](const Pair& pair, bool edges) {
     const auto& v = pair.vertices;
@@ -191,7 +208,7 @@ void SelfContact::resolve(std::vector<Vec3d>& x, const std::vector<Vec3d>& befor
     const double depth = pair.thickness - gap.dot(n);
     const Vec3d slip = blend(c, v, x) - blend(c, v, before);
     // Inelastic: stop the approach, then recover the distance slowly instead of throwing the layers apart.
-    const double correction = crossed ? depth : std::min(depth, std::max(0.0, -slip.dot(n)) + 0.01 * pair.thickness);
+    const double correction = crossed ? depth : std::min(depth, std::max(0.0, -slip.dot(n)) + 0.002 * pair.thickness);
     double sum = 0;
     for (int k = 0; k < 4; ++k) sum += c[k] * c[k] * inverse_mass[v[k]];
     if (sum <= 0 || !(n.length2() > 0.5)) return;
@@ -201,8 +218,14 @@ void SelfContact::resolve(std::vector<Vec3d>& x, const std::vector<Vec3d>& befor
     if (s > 0) change -= along * (std::min(friction_ * correction, s) / s);
     for (int k = 0; k < 4; ++k) x[v[k]] += change * (c[k] * inverse_mass[v[k]] / sum);
   };
-  for (const Pair& pair : vertex_triangle_) push(pair, false);
-  for (const Pair& pair : edge_edge_) push(pair, true);
+  const auto push_all = [&](const std::vector<Pair>& pairs, bool edges) {
+    for (const Pair& pair : pairs) {
+      if (pair.slack > 2 * reached) break;
+      push(pair, edges);
+    }
+  };
+  push_all(vertex_triangle_, false);
+  push_all(edge_edge_, true);
 }
 
 int count_crossings(const std::vector<Vec3d>& x, const std::vector<std::array<int, 3>>& triangles) {
