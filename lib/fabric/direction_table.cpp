@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "math/lane_functions.h"
 
 namespace sateen {
 
@@ -18,6 +19,7 @@ constexpr double crowding_view = 0.08;  // of phi_r towards the horizon; varianc
 constexpr double crowding_cell = 0.15;  // of phi towards the horizon
 constexpr double rim_share = 0.8;      // a rim cell is worth at least this share of its largest value: the weight's bound
 constexpr int half_s_nodes = 11, half_phi_nodes = 11;
+constexpr int guides = 256;            // shares of phi's half turn, each narrower than the narrowest cell
 constexpr double outermost = 0.998;    // of t: nodes stay off the horizon itself, where F is 0
 
 // t in [-1, 1] to an angle in [-pi/2, pi/2] with steps that shrink towards the ends, and back.
@@ -55,6 +57,7 @@ float node_index(float place, int nodes, bool mirrored) {
 struct PhiGrid {
   std::array<float, phi_cells + 1> edge;
   std::array<float, phi_cells> inverse_area;  ///< 1 / (d theta d phi) of a cell times 2^-32
+  std::array<std::uint8_t, guides> guide;     ///< first cell that an equal share of the half turn meets
 };
 const PhiGrid& phi_grid() {
   static const PhiGrid grid = [] {
@@ -62,6 +65,12 @@ const PhiGrid& phi_grid() {
     for (int b = 0; b <= phi_cells; ++b) g.edge[b] = float(crowded_angle(2.0 * b / phi_cells - 1, crowding_cell));
     for (int b = 0; b < phi_cells; ++b)
       g.inverse_area[b] = float(theta_cells / (2 * half_pi) / (double(g.edge[b + 1]) - g.edge[b]) * 0x1p-32);
+    for (int i = 0, b = 0; i < guides; ++i) {
+      // One share earlier than exact, so that rounding of the place never starts behind the cell.
+      const double from = 2 * half_pi * (i - 0.01) / guides - half_pi;
+      while (b < phi_cells - 1 && double(g.edge[b + 1]) <= from) ++b;
+      g.guide[size_t(i)] = std::uint8_t(b);
+    }
     return g;
   }();
   return grid;
@@ -125,21 +134,30 @@ int theta_cell(float theta) {
 }
 int phi_cell(float phi) {
   const PhiGrid& grid = phi_grid();
-  int b = std::clamp(int((crowded_place(phi, float(crowding_cell)) + 1) * (phi_cells / 2)), 0, phi_cells - 1);
+  const int place = std::clamp(int((phi + float(half_pi)) * float(guides / (2 * half_pi))), 0, guides - 1);
+  int b = grid.guide[size_t(place)];
   // The edges as stored decide, so that the density is exactly the one drawn from.
-  while (b > 0 && phi < grid.edge[b]) --b;
-  while (b < phi_cells - 1 && phi >= grid.edge[b + 1]) ++b;
+  while (b < phi_cells - 1 && phi >= grid.edge[size_t(b) + 1]) ++b;
   return b;
 }
 
-/// Index of the last of `count` ascending entries (stride apart) that is <= value.
-int find_cell(const std::uint32_t* entries, int count, int stride, std::uint32_t value) {
-  int low = 0, high = count;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    (entries[middle * stride] <= value ? low : high) = middle;
-  }
-  return low;
+/// Index of the last of `count` ascending entries that is <= value, the first of which is. Counting them all has no
+/// branch to predict and is a few vector instructions.
+template <int count>
+int last_not_above(const std::uint32_t* entries, std::uint32_t value) {
+  int n = 0;
+  for (int i = 0; i < count; ++i) n += entries[i] <= value ? 1 : 0;
+  return std::max(n - 1, 0);
+}
+
+/// atan2(y, x) for x >= 0, several at a time.
+struct Angles {
+  float a, b, c;
+};
+Angles right_angles(float ya, float xa, float yb, float xb, float yc = 0, float xc = 1) {
+  float angle[8];
+  atan_magnitude(Lanes::of(ya, yb, yc, 1), max(Lanes::of(xa, xb, xc, 1), Lanes(1e-30f))).store(angle);
+  return {std::copysign(angle[0], ya), std::copysign(angle[1], yb), std::copysign(angle[2], yc)};
 }
 
 }  // namespace
@@ -154,13 +172,16 @@ DirectionTable tabulate_directions(const Threads<float>& threads, float volume_w
   const int nodes = table.s_nodes * table.phi_nodes;
   table.node_theta.resize(nodes);
   table.cumulative.resize(size_t(nodes) * (cells + 1));
+  table.row_start.resize(size_t(nodes) * theta_cells);
   parallel_for(nodes, threads_used, [&](int node) {
     const double phi =
         crowded_angle(node_place(node % table.phi_nodes, table.phi_nodes, mirror_y), crowding_view);
     const double theta = theta_of(node_place(node / table.phi_nodes, table.s_nodes, mirror_x), phi);
     table.node_theta[node] = float(theta);
     SliceMaker maker{threads, volume_warp, volume_weft, {}};
-    maker.make(theta, phi, &table.cumulative[size_t(node) * (cells + 1)]);
+    std::uint32_t* cumulative = &table.cumulative[size_t(node) * (cells + 1)];
+    maker.make(theta, phi, cumulative);
+    for (int a = 0; a < theta_cells; ++a) table.row_start[size_t(node) * theta_cells + size_t(a)] = cumulative[a * phi_cells];
   });
   return table;
 }
@@ -170,15 +191,16 @@ TableView prepare_table(const DirectionTable& table, const Vec3& wo) {
   view.flip_x = table.mirror_x && wo.x < 0 ? -1.0f : 1.0f;
   view.flip_y = table.mirror_y && wo.y < 0 ? -1.0f : 1.0f;
   const float x = wo.x * view.flip_x, y = wo.y * view.flip_y;
-  const float theta = std::atan2(x, std::sqrt(y * y + wo.z * wo.z));
-  const float s = (theta + std::atan2(x, wo.z)) * (1 / pi);
+  const Angles angles = right_angles(x, std::sqrt(y * y + wo.z * wo.z), x, wo.z, y, wo.z);
+  const float theta = angles.a, s = (theta + angles.b) * (1 / pi);
   const float i = node_index(s, table.s_nodes, table.mirror_x);
-  const float j = node_index(crowded_place(std::atan2(y, wo.z), float(crowding_view)), table.phi_nodes, table.mirror_y);
+  const float j = node_index(crowded_place(angles.c, float(crowding_view)), table.phi_nodes, table.mirror_y);
   const int i0 = std::min(int(i), table.s_nodes - 2), j0 = std::min(int(j), table.phi_nodes - 2);
   const float fi = i - float(i0), fj = j - float(j0);
   for (int k = 0; k < 4; ++k) {
     const int node = (i0 + (k & 1)) * table.phi_nodes + j0 + (k >> 1);
     view.slice[k] = &table.cumulative[size_t(node) * (cells + 1)];
+    view.row_start[k] = &table.row_start[size_t(node) * theta_cells];
     view.share[k] = (k & 1 ? fi : 1 - fi) * (k >> 1 ? fj : 1 - fj);
     view.turn[k] = theta - table.node_theta[node];
   }
@@ -189,8 +211,9 @@ float table_pdf(const TableView& view, const Vec3& wi) {
   if (!(wi.z > 0)) return 0;
   const float x = wi.x * view.flip_x, y = wi.y * view.flip_y;
   const float cos_theta = std::sqrt(y * y + wi.z * wi.z);
-  const float theta = std::atan2(x, cos_theta);
-  const int b = phi_cell(std::atan2(y, wi.z));
+  const Angles angles = right_angles(x, cos_theta, y, wi.z);
+  const float theta = angles.a;
+  const int b = phi_cell(angles.b);
   float density = 0;
   for (int k = 0; k < 4; ++k) {
     if (view.share[k] == 0) continue;
@@ -209,16 +232,12 @@ Vec3 sample_table(const TableView& view, double u_view, double u_theta, double u
 
   // Rows by u_theta, columns within the row by u_phi: a two-dimensional point set stays stratified.
   const std::uint32_t u = std::uint32_t(u_theta * 0x1p32);
-  const int a = find_cell(slice, theta_cells, phi_cells, u);
+  const int a = last_not_above<theta_cells>(view.row_start[k], u);
   const std::uint32_t* row = slice + a * phi_cells;
   const std::uint32_t row_mass = row[phi_cells] - row[0];
   const double in_row = (u_theta * 0x1p32 - row[0]) / row_mass;
   const double target = u_phi * row_mass;
-  int low = 0, high = phi_cells;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    (double(row[middle] - row[0]) <= target ? low : high) = middle;
-  }
+  const int low = last_not_above<phi_cells>(row, row[0] + std::uint32_t(target));
   const double in_cell = (target - double(row[low] - row[0])) / double(row[low + 1] - row[low]);
 
   const PhiGrid& grid = phi_grid();
@@ -226,8 +245,12 @@ Vec3 sample_table(const TableView& view, double u_view, double u_theta, double u
       float(-half_pi + (a + std::clamp(in_row, 0.0, 0x1.fffffep-1)) * (2 * half_pi / theta_cells));
   const float theta = wrap_theta(theta_node - view.turn[k]);
   const float phi = grid.edge[low] + float(std::clamp(in_cell, 0.0, 0x1.fffffep-1)) * (grid.edge[low + 1] - grid.edge[low]);
-  const float c = std::cos(theta);
-  return {view.flip_x * std::sin(theta), view.flip_y * c * std::sin(phi), std::max(c * std::cos(phi), 1e-9f)};
+  const Lanes angles = Lanes::of(theta, phi, 0, 0);
+  float sine[8], cosine[8];
+  sin_quarter(angles).store(sine);
+  cos_quarter(angles).store(cosine);
+  const float across = std::max(cosine[0], 0.0f);
+  return {view.flip_x * sine[0], view.flip_y * across * sine[1], std::max(across * cosine[1], 1e-9f)};
 }
 
 }  // namespace sateen

@@ -24,11 +24,13 @@ struct DirectionTable {
   int s_nodes = 0, phi_nodes = 0;
   std::vector<float> node_theta;           ///< theta of view node [s][phi]
   std::vector<std::uint32_t> cumulative;   ///< [s][phi][cells + 1], 2^32 scale; the last entry, 2^32, is stored as 0
+  std::vector<std::uint32_t> row_start;    ///< [s][phi][theta_cells]: every phi_cells-th of those, side by side
 };
 
 /// The four slices around a view with their shares, and the turn of each.
 struct TableView {
   const std::uint32_t* slice[4];
+  const std::uint32_t* row_start[4];
   float share[4];       ///< sum to 1
   float turn[4];        ///< theta of the view minus theta of the node [radians]
   float flip_x = 1, flip_y = 1;
