@@ -98,9 +98,15 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
     // A wide-gamut conversion may leave a hair below zero.
     for (int c = 0; c < 3; ++c) fabric.A[family][c] = std::max(fabric.A[family][c], 0.0f);
   }
-  if (parts.table)
-    fabric.table = tabulate_directions(fabric.threads, mean_component(fabric.A[0]), mean_component(fabric.A[1]),
+  if (parts.table) {
+    const auto coarse = [](const ThreadFamily& f) {
+      return table_quadrature(f.offsets_deg, f.lengths, narrowest_lobe(f));
+    };
+    Threads<float> threads = compile_threads<float>(look, coarse(look.warp), coarse(look.weft));
+    threads.grazing.clear();
+    fabric.table = tabulate_directions(threads, mean_component(fabric.A[0]), mean_component(fabric.A[1]),
                                        symmetric(look.warp, warp), symmetric(look.weft, weft), parts.threads);
+  }
   return fabric;
 }
 

@@ -74,6 +74,11 @@ std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, co
   return tangent_quadrature(offsets_deg, lengths, gamma, 8.0, widest, panel_nodes);
 }
 
+std::vector<Tangent> table_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
+                                      double gamma) {
+  return tangent_quadrature(offsets_deg, lengths, gamma, 10.0, 60 * to_radians, panel_nodes);
+}
+
 std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents) {
   std::vector<Tangent> halved;
   for (size_t i = 0; i < tangents.size();) {

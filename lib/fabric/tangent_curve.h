@@ -40,6 +40,10 @@ inline constexpr int panel_nodes = 8;
 std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
                                        double gamma, double masking_width);
 
+/// A quadrature with an error of about a hundredth of the peak, half as many nodes: enough for the direction table.
+std::vector<Tangent> table_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
+                                      double gamma);
+
 /// The same curve with twice the nodes in every panel that is longer than 6 degrees.
 std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents);
 
