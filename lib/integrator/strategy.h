@@ -24,8 +24,8 @@ std::string strategy_name(Strategy strategy);
 FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
 
 struct LightSettings {
-  Strategy strategy = Strategy::resampled;
-  int candidates = 8;  ///< of each kind, for resampling, 1 to 64
+  Strategy strategy = Strategy::mis_compensated;
+  int candidates = 4;  ///< of each kind, for resampling, 1 to 64
   int bounces = 0;     ///< light that meets cloth again, 0 to 64
 };
 

@@ -9,7 +9,7 @@ Ray Camera::ray(float film_x, float film_y) const {
   const float x = (2 * film_x / float(width) - 1) * tan_x, y = (1 - 2 * film_y / float(height)) * tan_y;
   Ray ray;
   ray.origin = position;
-  ray.direction = normalize(forward + right * x + up * y);
+  ray.direction = forward + right * x + up * y;
   return ray;
 }
 

@@ -23,7 +23,7 @@ struct Camera {
   float tan_x = 1, tan_y = 1; ///< half extents of the picture at distance 1
   int width = 1, height = 1;
 
-  Ray ray(float film_x, float film_y) const;
+  Ray ray(float film_x, float film_y) const;  ///< its direction reaches the plane at distance 1; it is not unit
   float pixel_size(const Vec3& point) const;  ///< scene units at the point; not positive behind the camera
 };
 

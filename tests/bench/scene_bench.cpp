@@ -82,14 +82,16 @@ void rays() {
   fmt::print("rays per CPU-second of a render over bare Embree on the very same rays, one thread, one by one\n");
   fmt::print("{:<28}{:>10}{:>18}{:>12}{:>12}{:>12}{:>16}\n", "look", "triangles", "strategy", "Mray/s", "bare Mray/s",
              "efficiency", "min to max");
-  for (const char* look : {"polyester_satin_charmeuse", "silk_crepe_de_chine", default_look}) {
-    const Scene scene = scene_of(look, "studio_softboxes", 2, 480);
+  struct Case { const char* look; int level; };
+  for (const auto& [look, level] : {Case{"polyester_satin_charmeuse", 2}, {"polyester_satin_charmeuse", 3},
+                                    {"silk_crepe_de_chine", 3}, {default_look, 3}}) {
+    const Scene scene = scene_of(look, "studio_softboxes", level, 960);
     for (const Strategy strategy : {Strategy::mis, Strategy::mis_compensated, Strategy::resampled}) {
       LightSettings light;
       light.strategy = strategy;
       light.candidates = 4;
       auto scratch = std::make_unique<PathScratch>();
-      constexpr int samples = 4;
+      constexpr int samples = 2;
       const auto render_all = [&] {
         float sum = 0;
         for (int y = 0; y < scene.camera.height; ++y)
