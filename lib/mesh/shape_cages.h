@@ -12,7 +12,7 @@ ControlMesh swatch();
 /// The control points are placed so that the limit surface, not the cage, has the radius.
 ControlMesh sphere();
 
-/// A square of satin laid over a ball, its corners spread on the floor y = 0. Simulated: see simulation/.
+/// A square of satin laid over a ball, its corners spread on the floor y = 0. Simulated: see shapes/simulation/.
 ControlMesh drape();
 
 /// A circle skirt of satin in a slow turn, its waist at a height of 0.75 m. Cut in one piece, without a seam; the

@@ -1,6 +1,5 @@
 #include "mesh/shapes/simulation/cloth.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sateen {
@@ -83,31 +82,6 @@ std::vector<Stencil> bending_stencils(const Cloth& cloth) {
       }
     }
   return stencils;
-}
-
-void smooth(Cloth& cloth, int iterations) {
-  const std::vector<Stencil> stencils = bending_stencils(cloth);
-  std::vector<double> bound(cloth.positions.size(), 0.0);
-  for (const Stencil& s : stencils) {
-    double sum = 0;  // row sums of magnitudes bound the eigenvalues: no step overshoots
-    for (const double w : s.weights) sum += std::abs(w);
-    for (int k = 0; k < 9; ++k) bound[s.vertices[k]] += std::abs(s.weights[k]) * sum;
-  }
-  // The border is stiff on one side only; it takes the step of the inside, or it would run ahead of it.
-  for (int j = 0; j < cloth.rows; ++j)
-    for (int i = 0; i < cloth.columns; ++i)
-      bound[cloth.at(i, j)] =
-          bound[cloth.at(cloth.closed ? i : std::clamp(i, 2, cloth.columns - 3), std::clamp(j, 2, cloth.rows - 3))];
-  for (int n = 0; n < iterations; ++n) {
-    std::vector<Vec3d> force(cloth.positions.size(), Vec3d(0));
-    for (const Stencil& s : stencils) {
-      Vec3d c(0);
-      for (int k = 0; k < 9; ++k) c += cloth.positions[s.vertices[k]] * s.weights[k];
-      for (int k = 0; k < 9; ++k) force[s.vertices[k]] += c * s.weights[k];
-    }
-    for (std::size_t v = 0; v < force.size(); ++v)
-      if (cloth.inverse_mass[v] > 0) cloth.positions[v] -= force[v] / bound[v];
-  }
 }
 
 Cloth refine(const Cloth& coarse, const std::function<Vec2d(double, double)>& pattern_at) {

@@ -70,9 +70,6 @@ Cloth refine(const Cloth& coarse, const std::function<Vec2d(double, double)>& pa
 /// Two triangles a quad, counter-clockwise.
 std::vector<std::array<int, 3>> cloth_triangles(const Cloth& cloth);
 
-/// Takes out what is narrower than a few cells: `iterations` steps down the thin-plate energy; held vertices stay.
-void smooth(Cloth& cloth, int iterations);
-
 /// Weights w of a second derivative on the pattern: sum w x = 0 for every flat, undistorted placement.
 struct Stencil {
   std::array<int, 9> vertices;
