@@ -12,14 +12,16 @@ namespace sateen {
 namespace {
 
 constexpr int theta_cells = DirectionTable::theta_cells, phi_cells = DirectionTable::phi_cells;
-constexpr int cells = DirectionTable::cells;
+constexpr int cells = DirectionTable::cells, half_columns = phi_cells / 2;
 constexpr double half_pi = 1.57079632679489662;
 constexpr double floor_share = 0.02;   // of the mean, so that every direction can be drawn; 5 % cost 0.009 of variance
 constexpr double crowding_view = 0.08;  // of phi_r towards the horizon; variance of grazing views, measured
 constexpr double crowding_cell = 0.15;  // of phi towards the horizon
-constexpr double rim_share = 0.8;      // a rim cell is worth at least this share of its largest value: the weight's bound
+constexpr double rim_deg[] = {0, 0.005, 0.08, 0.8};  // edges over the horizon; without them weights of 25 times the mean
+constexpr int rim_cells = 3;
+constexpr double neighbour_share = 0.2;  // of the larger neighbour in theta: a turned slice is off by part of a cell
 constexpr int half_s_nodes = 12, half_phi_nodes = 11;  // s of 11: velvet at 89 degrees has 1.6 times the variance
-constexpr int guides = 256;            // shares of phi's half turn, each narrower than the narrowest cell
+constexpr int guides = 128;            // shares of the height; behind the rim no column is narrower
 constexpr double outermost = 0.998;    // of t: nodes stay off the horizon itself, where F is 0
 
 // t in [-1, 1] to an angle in [-pi/2, pi/2] with steps that shrink towards the ends, and back.
@@ -54,64 +56,94 @@ float node_index(float place, int nodes, bool mirrored) {
   return std::clamp(index, 0.0f, float(nodes - 1));
 }
 
-struct PhiGrid {
-  std::array<float, phi_cells + 1> edge;
-  std::array<float, phi_cells> inverse_area;  ///< 1 / (d theta d phi) of a cell times 2^-32
-  std::array<std::uint8_t, guides> guide;     ///< first cell that an equal share of the half turn meets
+// Edge b of a column as its height over the horizon; the cells of the rim get ever narrower.
+double height_edge(int b) {
+  const double rim = rim_deg[rim_cells] / 90;
+  if (b <= rim_cells) return rim_deg[b] / 90 * half_pi;
+  const double tau = double(b - rim_cells) / (half_columns - rim_cells);
+  return (rim + (1 - rim) * tau * (tau + crowding_cell) / (1 + crowding_cell)) * half_pi;
+}
+
+}  // namespace
+
+/// Columns of every slice in the height pi/2 - |phi|, which a float states exactly where it matters, at the horizon.
+/// Column b of y < 0 lies between the heights edge[b] and edge[b + 1]; the columns of y > 0 follow from the zenith down.
+struct ColumnGrid {
+  std::array<float, half_columns + 1> edge;
+  std::array<float, half_columns> ceiling;       ///< edge[b + 1]; above every height for the last
+  std::array<float, half_columns> inverse_area;  ///< 1 / (d theta d phi) of a cell times 2^-32
+  std::array<std::uint8_t, guides + 1> guide;    ///< first column that an equal share of the height meets
+
+  /// The edges as stored decide, so that the density is exactly the one drawn from. No share meets more than two edges.
+  int cell(float height) const {
+    int b = guide[size_t(std::min(int(height * float(guides / half_pi)), guides))];
+    b += height >= ceiling[size_t(b)] ? 1 : 0;
+    return b + (height >= ceiling[size_t(b)] ? 1 : 0);
+  }
 };
-const PhiGrid& phi_grid() {
-  static const PhiGrid grid = [] {
-    PhiGrid g;
-    for (int b = 0; b <= phi_cells; ++b) g.edge[b] = float(crowded_angle(2.0 * b / phi_cells - 1, crowding_cell));
-    for (int b = 0; b < phi_cells; ++b)
+
+namespace {
+
+const ColumnGrid& column_grid() {
+  static const ColumnGrid grid = [] {
+    ColumnGrid g;
+    for (int b = 0; b <= half_columns; ++b) g.edge[size_t(b)] = float(height_edge(b));
+    std::copy(g.edge.begin() + 1, g.edge.end(), g.ceiling.begin());
+    g.ceiling.back() = 10;
+    for (size_t b = 0; b < half_columns; ++b)
       g.inverse_area[b] = float(theta_cells / (2 * half_pi) / (double(g.edge[b + 1]) - g.edge[b]) * 0x1p-32);
-    for (int i = 0, b = 0; i < guides; ++i) {
-      // One share earlier than exact, so that rounding of the place never starts behind the cell.
-      const double from = 2 * half_pi * (i - 0.01) / guides - half_pi;
-      while (b < phi_cells - 1 && double(g.edge[b + 1]) <= from) ++b;
+    for (int i = 0, b = 0; i <= guides; ++i) {
+      // A little earlier than exact, so that rounding of the place never starts behind the column.
+      const double from = half_pi * (i - 0.01) / guides;
+      while (b < half_columns - 1 && double(g.edge[size_t(b) + 1]) <= from) ++b;
       g.guide[size_t(i)] = std::uint8_t(b);
     }
     return g;
   }();
   return grid;
 }
-
 struct SliceMaker {
   const Threads<float>& threads;
   float volume_warp, volume_weft;
   ThreadView<float> view;
 
-  double f_cos_theta(double theta, double phi) const {
+  double f_cos_theta(double theta, double side, double height) const {
     const double c = std::cos(theta);
-    const ThreadSums<float> s = scatter<float>(threads, view, float(std::sin(theta)), float(c * std::sin(phi)),
-                                               float(c * std::cos(phi)));
+    const ThreadSums<float> s = scatter<float>(threads, view, float(std::sin(theta)), float(side * c * std::cos(height)),
+                                               float(c * std::sin(height)));
     return c * (double(s.surface[0]) + s.surface[1] + volume_warp * s.volume[0] + volume_weft * s.volume[1]);
   }
 
   void make(double theta_r, double phi_r, std::uint32_t* cumulative) {
     const double c = std::cos(theta_r);
     prepare_view<float>(threads, float(std::sin(theta_r)), float(c * std::sin(phi_r)), float(c * std::cos(phi_r)), view);
-    const PhiGrid& grid = phi_grid();
-    std::array<double, cells> mass;
+    const ColumnGrid& grid = column_grid();
+    std::array<double, cells> value, mass;
     const double d_theta = 2 * half_pi / theta_cells;
-    double total = 0;
     for (int a = 0; a < theta_cells; ++a)
-      for (int b = 0; b < phi_cells; ++b) {
-        const double theta = -half_pi + a * d_theta, d_phi = double(grid.edge[b + 1]) - grid.edge[b];
-        double mean = 0, largest = 0;
+      for (int column = 0; column < phi_cells; ++column) {
+        const int b = std::min(column, phi_cells - 1 - column);
+        const double theta = -half_pi + a * d_theta, from = grid.edge[size_t(b)], d_phi = grid.edge[size_t(b) + 1] - from;
+        const double side = column < half_columns ? -1 : 1;
+        // In the rim F falls like the inverse height: two heights that give a decade's mean.
+        const double low = b < rim_cells ? 0.12 : 0.25, high = b < rim_cells ? 0.6 : 0.75;
+        double mean = 0;
         for (const double i : {0.25, 0.75})
-          for (const double j : {0.25, 0.75}) mean += f_cos_theta(theta + i * d_theta, grid.edge[b] + j * d_phi) / 4;
-        if (b == 0 || b == phi_cells - 1)  // the rim: Q vanishes within a tenth of a degree of the horizon
-          for (const double i : {0.25, 0.75})
-            for (const double j : {0.02, 0.1})
-              largest = std::max(largest, f_cos_theta(theta + i * d_theta, grid.edge[b] + (b == 0 ? j : 1 - j) * d_phi));
-        mass[a * phi_cells + b] = std::max(mean, rim_share * largest) * d_theta * d_phi;
-        total += mass[a * phi_cells + b];
+          for (const double j : {low, high}) mean += f_cos_theta(theta + i * d_theta, side, from + j * d_phi) / 4;
+        value[size_t(a * phi_cells + column)] = mean;
       }
+    const auto area = [&](size_t column) {
+      const size_t b = std::min(column, phi_cells - 1 - column);
+      return d_theta * (double(grid.edge[b + 1]) - grid.edge[b]);
+    };
+    double total = 0;
+    for (size_t k = 0; k < cells; ++k) {
+      const double below = k >= phi_cells ? value[k - phi_cells] : 0, above = k + phi_cells < cells ? value[k + phi_cells] : 0;
+      mass[k] = std::max(value[k], neighbour_share * std::max(below, above)) * area(k % phi_cells);
+      total += mass[k];
+    }
     const double everywhere = total > 0 ? floor_share * total : 1.0;
-    for (int k = 0; k < cells; ++k)
-      mass[k] += everywhere * (double(grid.edge[k % phi_cells + 1]) - grid.edge[k % phi_cells]) * d_theta /
-                 (4 * half_pi * half_pi);
+    for (size_t k = 0; k < cells; ++k) mass[k] += everywhere * area(k % phi_cells) / (4 * half_pi * half_pi);
     double all = 0, sum = 0;
     for (const double m : mass) all += m;
     for (int k = 0; k < cells; ++k) {
@@ -127,18 +159,6 @@ float wrap_theta(float theta) {
   if (theta >= quarter) theta -= pi;
   if (theta < -quarter) theta += pi;
   return theta;
-}
-
-int theta_cell(float theta) {
-  return std::clamp(int((theta + float(half_pi)) * float(theta_cells / (2 * half_pi))), 0, theta_cells - 1);
-}
-int phi_cell(float phi) {
-  const PhiGrid& grid = phi_grid();
-  const int place = std::clamp(int((phi + float(half_pi)) * float(guides / (2 * half_pi))), 0, guides - 1);
-  int b = grid.guide[size_t(place)];
-  // The edges as stored decide, so that the density is exactly the one drawn from.
-  while (b < phi_cells - 1 && phi >= grid.edge[size_t(b) + 1]) ++b;
-  return b;
 }
 
 /// Index of the last of `count` ascending entries that is <= value, the first of which is. Counting them all has no
@@ -188,6 +208,7 @@ DirectionTable tabulate_directions(const Threads<float>& threads, float volume_w
 
 TableView prepare_table(const DirectionTable& table, const Vec3& wo) {
   TableView view;
+  view.columns = &column_grid();
   view.flip_x = table.mirror_x && wo.x < 0 ? -1.0f : 1.0f;
   view.flip_y = table.mirror_y && wo.y < 0 ? -1.0f : 1.0f;
   const float x = wo.x * view.flip_x, y = wo.y * view.flip_y;
@@ -211,16 +232,19 @@ float table_pdf(const TableView& view, const Vec3& wi) {
   if (!(wi.z > 0)) return 0;
   const float x = wi.x * view.flip_x, y = wi.y * view.flip_y;
   const float cos_theta = std::sqrt(y * y + wi.z * wi.z);
-  const Angles angles = right_angles(x, cos_theta, y, wi.z);
-  const float theta = angles.a;
-  const int b = phi_cell(angles.b);
+  const Angles angles = right_angles(x, cos_theta, wi.z, std::abs(y));
+  const int height = view.columns->cell(angles.b), column = y < 0 ? height : phi_cells - 1 - height;
+  // A turn is half a circle at most: one more keeps the row positive.
+  const float row = angles.a * float(theta_cells / (2 * half_pi)) + 1.5f * theta_cells;
   float density = 0;
   for (int k = 0; k < 4; ++k) {
-    if (view.share[k] == 0) continue;
-    const std::uint32_t* entry = view.slice[k] + theta_cell(wrap_theta(theta + view.turn[k])) * phi_cells + b;
+    int a = int(row + view.turn[k] * float(theta_cells / (2 * half_pi)));
+    a -= a >= theta_cells ? theta_cells : 0;
+    a -= a >= theta_cells ? theta_cells : 0;
+    const std::uint32_t* entry = view.slice[k] + (a * phi_cells + column);
     density += view.share[k] * float(entry[1] - entry[0]);
   }
-  return density * phi_grid().inverse_area[b] / std::max(cos_theta, 1e-12f);
+  return density * view.columns->inverse_area[size_t(height)] / std::max(cos_theta, 1e-12f);
 }
 
 Vec3 sample_table(const TableView& view, double u_view, double u_theta, double u_phi) {
@@ -240,17 +264,18 @@ Vec3 sample_table(const TableView& view, double u_view, double u_theta, double u
   const int low = last_not_above<phi_cells>(row, row[0] + std::uint32_t(target));
   const double in_cell = (target - double(row[low] - row[0])) / double(row[low + 1] - row[low]);
 
-  const PhiGrid& grid = phi_grid();
-  const float theta_node =
-      float(-half_pi + (a + std::clamp(in_row, 0.0, 0x1.fffffep-1)) * (2 * half_pi / theta_cells));
+  constexpr double below_one = 0x1.fffffep-1;
+  const ColumnGrid& grid = *view.columns;
+  const float theta_node = float(-half_pi + (a + std::clamp(in_row, 0.0, below_one)) * (2 * half_pi / theta_cells));
   const float theta = wrap_theta(theta_node - view.turn[k]);
-  const float phi = grid.edge[low] + float(std::clamp(in_cell, 0.0, 0x1.fffffep-1)) * (grid.edge[low + 1] - grid.edge[low]);
-  const Lanes angles = Lanes::of(theta, phi, 0, 0);
+  const size_t b = size_t(std::min(low, phi_cells - 1 - low));
+  const float height = grid.edge[b] + float(std::clamp(in_cell, 0.0, below_one)) * (grid.edge[b + 1] - grid.edge[b]);
+  const Lanes angles = Lanes::of(theta, height, 0, 0);
   float sine[8], cosine[8];
   sin_quarter(angles).store(sine);
   cos_quarter(angles).store(cosine);
-  const float across = std::max(cosine[0], 0.0f);
-  return {view.flip_x * sine[0], view.flip_y * across * sine[1], std::max(across * cosine[1], 1e-9f)};
+  const float across = std::max(cosine[0], 0.0f), side = low < half_columns ? -view.flip_y : view.flip_y;
+  return {view.flip_x * sine[0], side * across * cosine[1], std::max(across * sine[1], 1e-9f)};
 }
 
 }  // namespace sateen

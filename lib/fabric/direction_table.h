@@ -12,13 +12,15 @@ namespace sateen {
 /// for F. A slice of directions for every view node, laid out in the warp's coordinates theta = asin(w.x),
 /// phi = atan2(w.y, w.z), where the lobes run along the grid; inside a cell uniform in theta and phi.
 ///
-/// Three things make a small table enough, all measured (docs/numbers.md):
+/// Four things make a small table enough, all measured (docs/numbers.md):
 /// - view nodes lie in s = (theta_r + psi_r)/pi with psi_r = atan2(w.x, w.z), and in phi_r crowded towards the horizon:
 ///   Q turns with psi_r, the lobes with theta_r, and s resolves both;
 /// - a slice is turned about by theta_r - theta_node before use, so that the lobes of neighbouring views lie on each other;
+/// - the outer three columns on either side are 0.005, 0.075 and 0.72 degrees wide: where Q vanishes towards the horizon,
+///   F goes like the inverse of the height over it;
 /// - a look that is its own mirror image in x or in y needs half the views in that axis.
 struct DirectionTable {
-  static constexpr int theta_cells = 48, phi_cells = 24, cells = theta_cells * phi_cells;
+  static constexpr int theta_cells = 48, phi_cells = 28, cells = theta_cells * phi_cells;
 
   bool mirror_x = false, mirror_y = false;  ///< tabulated for w.x >= 0 or w.y >= 0 alone
   int s_nodes = 0, phi_nodes = 0;
@@ -27,8 +29,11 @@ struct DirectionTable {
   std::vector<std::uint32_t> row_start;    ///< [s][phi][theta_cells]: every phi_cells-th of those, side by side
 };
 
+struct ColumnGrid;
+
 /// The four slices around a view with their shares, and the turn of each.
 struct TableView {
+  const ColumnGrid* columns = nullptr;  ///< the same for every table
   const std::uint32_t* slice[4];
   const std::uint32_t* row_start[4];
   float share[4];       ///< sum to 1
