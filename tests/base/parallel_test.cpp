@@ -5,10 +5,12 @@
 #include <sched.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace sateen {
@@ -66,6 +68,17 @@ TEST(ParallelFor, RethrowsWhatABodyThrows) {
     } catch (const std::runtime_error& error) {
       EXPECT_STREQ(error.what(), "at 57");
     }
+}
+
+TEST(ParallelFor, RunsAsManyThreadsAsAskedForAlsoBeyondTheProcessors) {
+  // Every call waits until all eight are under way: fewer threads would stay there until the time is up.
+  std::atomic<int> under_way = 0;
+  const auto start = std::chrono::steady_clock::now();
+  parallel_for(8, 8, [&](int) {
+    ++under_way;
+    while (under_way < 8 && std::chrono::steady_clock::now() - start < std::chrono::seconds(20)) std::this_thread::yield();
+  });
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST(ParallelFor, WorksInsideItself) {
