@@ -1,0 +1,274 @@
+#include "image/oiio/functions.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "image/attributes.h"
+#include "image/dither.h"
+
+namespace sateen {
+
+namespace fs = std::filesystem;
+
+namespace {
+using Input = std::unique_ptr<OIIO::ImageInput>;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& message, const std::string& help = {},
+                         InputError::Kind kind = InputError::Kind::unreadable) {
+  Diagnostic d;
+  d.file = path.string();
+  d.message = message;
+  d.help = help;
+  throw InputError(kind, {d});
+}
+
+// The library's own words, on one line, after ours.
+std::string because(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  return text.empty() ? text : fmt::format(" ({})", text);
+}
+
+Input open(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (status.type() == fs::file_type::not_found) refuse(path, "no such file");
+  if (status.type() == fs::file_type::directory) refuse(path, "is a folder, expected a picture");
+  if (status.type() != fs::file_type::regular) refuse(path, "is not a regular file");
+  if (fs::file_size(path, code) == 0) refuse(path, "is empty, expected a picture");
+  Input input = OIIO::ImageInput::open(path.string());
+  if (!input) refuse(path, "is not a picture that can be read" + because(OIIO::geterror()));
+  return input;
+}
+
+// Moves to the first part that holds flat pixels, full resolution.
+void seek_flat_part(OIIO::ImageInput& input, const fs::path& path) {
+  for (int part = 0; input.seek_subimage(part, 0); ++part)
+    if (!input.spec().deep) return;
+  input.geterror();
+  refuse(path, "holds deep pixels only, expected a part with flat ones", "flatten it first");
+}
+
+ImageFileInfo info_of(const OIIO::ImageInput& input) {
+  const OIIO::ImageSpec& spec = input.spec();
+  ImageFileInfo info;
+  info.width = spec.full_width > 0 ? spec.full_width : spec.width;
+  info.height = spec.full_height > 0 ? spec.full_height : spec.height;
+  info.channels = spec.nchannels;
+  info.channel_names = spec.channelnames;
+  info.format = input.format_name();
+  info.pixel_type = spec.format.c_str();
+  info.color_space = spec.get_string_attribute("oiio:ColorSpace");
+  // OpenImageIO says "Linear" of every OpenEXR and Radiance file: that is the format's habit, not the file's word.
+  if (info.color_space == "Linear" || info.color_space == "linear") info.color_space.clear();
+  if (const auto* p = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8))) {
+    const auto* xy = static_cast<const float*>(p->data());
+    info.chromaticities =
+        ColorManager::Chromaticities{{xy[0], xy[1]}, {xy[2], xy[3]}, {xy[4], xy[5]}, {xy[6], xy[7]}};
+  }
+  return info;
+}
+
+void check_limits(const OIIO::ImageSpec& spec, const fs::path& path, const ImageLimits& limits) {
+  const auto check = [&](long long width, long long height, const char* what) {
+    if (width < 1 || height < 1)
+      refuse(path, fmt::format("its {} is {} x {} pixels, expected at least 1 x 1", what, width, height));
+    if (width > limits.side || height > limits.side)
+      refuse(path,
+             fmt::format("its {} is {} x {} pixels, expected at most {} a side", what, width, height, limits.side),
+             "make it smaller, or raise the limit");
+    // Sides below 2^31 each and a channel count below 2^31 could pass 64 bits: divide instead.
+    const long long pixel = 4ll * std::max(spec.nchannels, 1);
+    if (width * height > limits.decoded_bytes / pixel)
+      refuse(
+          path,
+          fmt::format("its {} of {} x {} pixels with {} channels takes {:.1f} GiB decoded, expected at most {:.1f}",
+                      what, width, height, spec.nchannels, double(width) * double(height) * double(pixel) / 0x1p30,
+                      double(limits.decoded_bytes) / 0x1p30),
+          "make it smaller, or raise the limit");
+  };
+  if (spec.nchannels < 1) refuse(path, "has no channels");
+  if (spec.depth > 1) refuse(path, "is a volume, expected a flat picture");
+  check(spec.width, spec.height, "data window");
+  if (spec.full_width > 0 && spec.full_height > 0) check(spec.full_width, spec.full_height, "picture");
+}
+
+// Places the data window in the display window; outside it is black.
+Image place(Image data, const OIIO::ImageSpec& spec) {
+  const int width = spec.full_width > 0 ? spec.full_width : spec.width;
+  const int height = spec.full_height > 0 ? spec.full_height : spec.height;
+  const long long left = (long long)(spec.x) - spec.full_x, top = (long long)(spec.y) - spec.full_y;
+  if (left == 0 && top == 0 && width == data.width && height == data.height) return data;
+  Image placed(width, height, data.channels);
+  const long long x0 = std::max(0ll, left), x1 = std::min<long long>(width, left + data.width);
+  for (long long y = std::max(0ll, top); y < std::min<long long>(height, top + data.height) && x0 < x1; ++y)
+    std::copy_n(data.at(int(x0 - left), int(y - top)), size_t(x1 - x0) * size_t(data.channels),
+                placed.at(int(x0), int(y)));
+  return placed;
+}
+
+// Reads the pixels of the current part; false (with the library's words) where the library reports a failure by
+// either of its two ways.
+template <class Pixel>
+bool read_pixels(OIIO::ImageInput& input, OIIO::TypeDesc type, std::vector<Pixel>& pixels, std::string& error) {
+  const bool read = input.read_image(input.current_subimage(), 0, 0, input.spec().nchannels, type, pixels.data());
+  error = input.geterror();
+  return read && error.empty();
+}
+ImageFileInfo read_info(const fs::path& path) {
+  const Input input = open(path);
+  seek_flat_part(*input, path);
+  return info_of(*input);
+}
+
+Image read_pixels(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
+  const Input input = open(path);
+  seek_flat_part(*input, path);
+  const OIIO::ImageSpec spec = input->spec();
+  check_limits(spec, path, limits);
+  if (info) *info = info_of(*input);
+  Image image(spec.width, spec.height, spec.nchannels);
+  std::string error;
+  if (!read_pixels(*input, OIIO::TypeDesc::FLOAT, image.pixels, error))
+    refuse(path, "its pixels cannot be read: the file is damaged or cut short" + because(error));
+  return place(std::move(image), spec);
+}
+
+Attributes read_texts(const fs::path& path) {
+  const Input input = open(path);
+  Attributes attributes;
+  for (const auto& entry : input->spec().extra_attribs) {
+    const std::string name = entry.name().string();
+    if (name == "ImageDescription" && entry.type() == OIIO::TypeDesc::STRING)
+      attributes.merge(attributes_from_text(entry.get_string()));
+    if (name.rfind("sateen:", 0) != 0 && name != "Software") continue;
+    if (entry.type() == OIIO::TypeDesc::STRING) {
+      attributes[name] = entry.get_string();
+    } else if (entry.type() == OIIO::TypeDesc::INT) {
+      attributes[name] = entry.get_int();
+    } else if (entry.type() == OIIO::TypeDesc::DOUBLE) {
+      attributes[name] = *static_cast<const double*>(entry.data());
+    } else if (entry.type() == OIIO::TypeDesc::FLOAT) {
+      attributes[name] = double(entry.get_float());
+    }
+  }
+  return attributes;
+}
+
+template <class Code>
+std::vector<Code> quantise(const Image& image, bool dithered) {
+  constexpr float largest = float(std::numeric_limits<Code>::max());
+  std::vector<Code> codes(image.pixels.size());
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < image.channels; ++c) {
+        const size_t i = (size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels) + size_t(c);
+        const float value = image.pixels[i] > 0 ? std::min(image.pixels[i], 1.0f) : 0.0f;
+        const float threshold = dithered && c < 3 ? dither_threshold(x, y, c) : 0.5f;
+        codes[i] = Code(std::min(value * largest + threshold, largest));
+      }
+  return codes;
+}
+
+// Lossless files must give back every code; a JPEG, which may not, must give back the picture.
+template <class Code>
+void verify_display(const fs::path& path, const OIIO::ImageSpec& meant, const std::vector<Code>& codes,
+                    OIIO::TypeDesc type, bool lossless) {
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  Input input = OIIO::ImageInput::open(path.string(), &as_stored);
+  if (!input) throw OperationError("the file written cannot be read back" + because(OIIO::geterror()));
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width != meant.width || spec.height != meant.height || spec.nchannels != meant.nchannels)
+    throw OperationError("the file written has another size than the picture");
+  std::vector<Code> back(codes.size());
+  std::string error;
+  if (!read_pixels(*input, type, back, error))
+    throw OperationError("the pixels written cannot be read back" + because(error));
+  if (lossless && back != codes) throw OperationError("the pixels read back differ from those written");
+  double difference = 0;
+  for (size_t i = 0; i < codes.size(); ++i) difference += std::abs(double(back[i]) - double(codes[i]));
+  if (difference > 0.1 * double(std::numeric_limits<Code>::max()) * double(codes.size()))
+    throw OperationError("the picture read back differs from the one written");
+}
+
+template <class Code>
+void write_codes(const fs::path& path, const OIIO::ImageSpec& spec, const std::vector<Code>& codes,
+                 OIIO::TypeDesc type, bool lossless) {
+  write_file_whole(
+      path,
+      [&](const fs::path& temporary) {
+        const auto output = OIIO::ImageOutput::create(temporary.string());
+        if (!output) throw OperationError("no writer for this kind of file" + because(OIIO::geterror()));
+        if (!output->open(temporary.string(), spec))
+          throw OperationError("cannot be opened for writing" + because(output->geterror()));
+        // A PNG on a full disk reports success from both calls and only leaves a text behind.
+        const bool wrote = output->write_image(type, codes.data());
+        const std::string write_error = output->geterror();
+        const bool closed = output->close();
+        const std::string close_error = output->geterror();
+        if (!wrote || !closed || !write_error.empty() || !close_error.empty())
+          throw OperationError("writing failed" + because(write_error.empty() ? close_error : write_error));
+      },
+      [&](const fs::path& temporary) { verify_display(temporary, spec, codes, type, lossless); });
+}
+
+void write_display(const fs::path& path, const Image& image, const Attributes& attributes, int bits,
+                         bool srgb) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+  const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
+  const bool tiff = extension == ".tif" || extension == ".tiff";
+  if (!png && !jpeg && !tiff)
+    refuse(path, fmt::format("\"{}\" is no extension of a display picture, expected .png, .jpg or .tif", extension),
+           "scene-linear pictures are written as .exr", InputError::Kind::wrong);
+  if (bits != 8 && bits != 16)
+    refuse(path, fmt::format("{} bits asked, expected 8 or 16", bits), {}, InputError::Kind::wrong);
+  if (jpeg && bits == 16)
+    refuse(path, "JPEG holds 8 bits, 16 asked", "write a .png or .tif", InputError::Kind::wrong);
+  if (image.width < 1 || image.height < 1 || (image.channels != 3 && image.channels != 4))
+    throw OperationError(fmt::format("{}: not written: the picture is {} x {} with {} channels, expected 3 or 4",
+                                     path.string(), image.width, image.height, image.channels));
+  Image opaque;
+  if (jpeg && image.channels == 4) {
+    opaque = Image(image.width, image.height, 3);
+    for (size_t i = 0; i < opaque.pixels.size(); ++i) opaque.pixels[i] = image.pixels[i / 3 * 4 + i % 3];
+  }
+  const Image& source = opaque.pixels.empty() ? image : opaque;
+
+  const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
+  OIIO::ImageSpec spec(source.width, source.height, source.channels, type);
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // the numbers as given, not divided by alpha on the way
+  if (srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+  if (!srgb) spec.attribute("oiio:ColorSpace", "Rec709");
+  if (jpeg) {
+    spec.attribute("Compression", "jpeg:95");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  } else if (tiff) {
+    spec.attribute("Compression", "zip");
+    spec.attribute("DateTime", "1970:01:01 00:00:00");  // left alone, the writer puts the present time
+  }
+  if (!attributes.empty()) spec.attribute("ImageDescription", to_text(attributes));
+  if (const auto found = attributes.find("Software"); found != attributes.end())
+    if (const auto* text = std::get_if<std::string>(&found->second)) spec.attribute("Software", *text);
+  if (bits == 8)
+    write_codes(path, spec, quantise<std::uint8_t>(source, !jpeg), type, !jpeg);
+  else
+    write_codes(path, spec, quantise<std::uint16_t>(source, false), type, true);
+}
+
+}  // namespace
+
+}  // namespace sateen
+
+extern "C" const sateen::ImageFileFunctions* sateen_image_file_functions() {
+  static const sateen::ImageFileFunctions functions{sateen::read_info, sateen::read_pixels, sateen::read_texts,
+                                                    sateen::write_display};
+  return &functions;
+}
