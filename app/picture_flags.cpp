@@ -135,7 +135,7 @@ void add_output(Command& c, PictureFlags& f) {
   c.group("Output");
   c.texts("-o,--output", "FILE", f.outputs, "repeatable; the extension picks the format: exr, png, jpg, tif");
   c.text("--aov", "LIST", f.layers,
-         fmt::format("layers of an EXR beside the beauty: all, none, or of {}", fmt::join(layer_names(), ",")));
+         fmt::format("layers of an EXR beside the beauty: all, none, or of {}", fmt::join(layer_names(), ", ")));
   c.text("--stats", "FILE", f.stats, "writes what was done and how long it took, as JSON");
   c.flag("--json", voice.json, "prints the same JSON, and nothing else, on standard output");
   c.choice("--progress", f.progress_name, {"auto", "bar", "alf", "openjd", "json", "none"},
@@ -190,6 +190,7 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int default_s
   f.scene.threads = f.render.threads;
   settle_effects(f.effects, command.given("--bounces"), f.render.light);
   f.layer_list = read_layers(f.layers);
+  f.render.albedo_layer = std::find(f.layer_list.begin(), f.layer_list.end(), "albedo") != f.layer_list.end();
   f.progress = progress_style(f);
   const Crop& crop = f.render.crop;
   if (crop.x1 > f.scene.width || crop.y1 > f.scene.height)

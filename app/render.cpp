@@ -38,7 +38,7 @@ int run_render(const std::vector<std::string>& words) {
   if (flags.outputs.empty()) flags.outputs = {"sateen.png", "sateen.exr"};
   std::set<std::string> names;
   for (const std::string& output : flags.outputs) {
-    check_picture_path(output);
+    check_picture_path(output, !flags.dry_run);
     if (!names.insert(output).second) throw InputError(fmt::format("--output {} is given twice", output));
   }
 
@@ -47,7 +47,7 @@ int run_render(const std::vector<std::string>& words) {
   SceneReport report;
   Scene scene = assemble_scene(flags.scene, colors, report);
   report.metered_ev = metered_towards(scene.environment, flags.scene.camera.azimuth_deg, flags.scene.environment_ev);
-  const PictureJob job = make_job(flags, report, scene, colors, shell_line(words));
+  const PictureJob job = make_job(flags, report, scene, colors, "render " + shell_line(words));
   print_scene(flags, job, report);
   if (flags.dry_run) return report_dry_run(flags, job, report);
 

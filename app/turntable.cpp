@@ -57,11 +57,11 @@ void check_names(TurntableFlags& f, const std::vector<int>& frames) {
     if (frames.size() > 1 && !has_frame_place(output))
       throw InputError(fmt::format("--output {} has no place for a frame's number, and there are {} frames", output, frames.size()),
                        "write it such as turn.####.png");
-    check_picture_path(frame_name(output, frames[0]));
+    check_picture_path(frame_name(output, frames[0]), !f.picture.dry_run);
     if (!names.insert(frame_name(output, frames[0])).second) throw InputError(fmt::format("--output {} is given twice", output));
   }
   if (f.sheet.empty()) return;
-  check_picture_path(f.sheet);
+  check_picture_path(f.sheet, !f.picture.dry_run);
   if (is_exr(f.sheet)) throw InputError("a sheet is for looking at and is not written as EXR", "use .png or .jpg");
   if (has_frame_place(f.sheet)) throw InputError(fmt::format("--sheet {} has a place for a number, but is one picture", f.sheet));
 }
@@ -164,7 +164,7 @@ int run_turntable(const std::vector<std::string>& words) {
   const std::vector<int> numbers = parse_frames(flags.frames.empty() ? fmt::format("1-{}", flags.count) : flags.frames);
   check_names(flags, numbers);
 
-  Turntable turntable(flags, shell_line(words));
+  Turntable turntable(flags, "turntable " + shell_line(words));
   const PictureFlags& picture = flags.picture;
   print_scene(picture, turntable.job(), turntable.report());
   const std::vector<Frame> frames = turntable.frames(numbers);

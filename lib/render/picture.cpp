@@ -1,10 +1,13 @@
 #include "render/picture.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -85,7 +88,7 @@ const std::vector<std::string>& picture_extensions() {
   return all;
 }
 
-void check_picture_path(const fs::path& path) {
+void check_picture_path(const fs::path& path, bool try_it) {
   const auto& known = picture_extensions();
   const std::string extension = extension_of(path);
   if (extension.empty())
@@ -94,17 +97,20 @@ void check_picture_path(const fs::path& path) {
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw InputError(fmt::format("{}: pictures of kind .{} are not written", shown_name(path.string()), extension),
                      suggestion(extension, known));
+  const auto refuse = [&](const std::string& why) {
+    throw OperationError(fmt::format("{} cannot be written ({}); nothing was rendered", path.string(), why));
+  };
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    throw OperationError(fmt::format("{} is there and is not a regular file: nothing was rendered", path.string()));
-  // Folders that are missing are made when the file is written: the nearest one that exists must let us.
-  fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  while (!fs::exists(folder, error) && folder != ".") folder = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error))
-    throw OperationError(fmt::format("{}: {} is not a folder: nothing was rendered", path.string(), folder.string()));
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    throw OperationError(fmt::format("{}: the folder {} cannot be written: nothing was rendered", path.string(),
-                                     folder.string()));
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("it is there and is no regular file");
+  if (!try_it) return;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+  if (error) refuse(fmt::format("its folder cannot be made: {}", error.message()));
+  fs::path probe = path;
+  probe.replace_filename(fmt::format(".{}.{}-probe", path.stem().string(), ::getpid()));
+  const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) refuse(std::strerror(errno));
+  ::close(descriptor);
+  fs::remove(probe, error);
 }
 
 const std::vector<std::string>& layer_names() {

@@ -117,7 +117,8 @@ void predict(RenderState& state, const StopRules& stop, double seconds_per_sampl
 RenderResult render(const Scene& scene, const RenderSettings& settings, Film& film,
                     const std::function<void(const RenderState&)>& observe, const std::atomic<bool>* interrupt) {
   const double start = now(), cpu_start = cpu_seconds();
-  const AlbedoMaps albedo = film.layers.empty() ? AlbedoMaps() : map_albedos(scene, settings.threads);
+  const AlbedoMaps albedo = film.layers.empty() || !settings.albedo_layer ? AlbedoMaps() : map_albedos(scene, settings.threads);
+  const double tracing_start = now();
   RenderResult result;
   RenderState state;
   // A first complete picture at once, then whole rounds of the replicates.
@@ -131,7 +132,9 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
       if (!observe || share >= 1 || time - told < 0.1) return;
       told = time;
       state.seconds = time - start;
-      predict(state, settings.stop, (time - pass_start) / (next * share), state.samples + next * share);
+      // The mean over all passes: a pass that has just begun has met the easy tiles alone, or another program's load.
+      const double done = state.samples + next * share;
+      predict(state, settings.stop, (time - tracing_start) / done, done);
       observe(state);
     };
     const bool whole = render_pass(scene, settings, albedo, film, next, result.rays, interrupt, tell);
@@ -145,7 +148,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
     state.seconds = now() - start;
     const double per_sample = pass_seconds / next;
     if (state.samples % replicates == 0) state.error = picture_error(film);
-    predict(state, settings.stop, per_sample, state.samples);
+    predict(state, settings.stop, (now() - tracing_start) / state.samples, state.samples);
     if (observe) observe(state);
 
     if (settings.stop.error > 0 && state.error.known && state.samples >= 4 * replicates &&

@@ -26,6 +26,7 @@ struct RenderSettings {
   std::uint32_t seed = 1;
   int threads = 0;   ///< 0: all that this process may use
   Crop crop;         ///< all zero: the whole picture
+  bool albedo_layer = true;  ///< false: the layer `albedo` stays black and its table, half a second, is not made
 };
 
 /// Told after every pass, and about ten times a second within one; never by two threads at once.
