@@ -206,6 +206,11 @@ DirectionTable tabulate_directions(const Threads<float>& threads, float volume_w
   return table;
 }
 
+std::vector<float> column_heights() {
+  const ColumnGrid& grid = column_grid();
+  return {grid.edge.begin(), grid.edge.end()};
+}
+
 TableView prepare_table(const DirectionTable& table, const Vec3& wo) {
   TableView view;
   view.columns = &column_grid();

@@ -45,6 +45,10 @@ struct TableView {
 DirectionTable tabulate_directions(const Threads<float>& threads, float volume_warp, float volume_weft,
                                    bool mirror_x, bool mirror_y, int threads_used = 1);
 
+/// Heights [radians] over the horizon of the columns' edges, 0 to pi/2, on either side of the warp. Rows are theta_cells equal
+/// parts of theta + turn, wrapped. Inside a cell the density times cos theta is constant for each of the four slices.
+std::vector<float> column_heights();
+
 /// For a unit wo with wo.z > 0.
 TableView prepare_table(const DirectionTable& table, const Vec3& wo);
 

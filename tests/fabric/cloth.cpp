@@ -101,14 +101,4 @@ Vec3 torture_direction(Random& random) {
   return direction(random.between(0, 89.9), azimuth);
 }
 
-double sidak_deviate(double alpha, double tests) {
-  const double tail = -std::expm1(std::log1p(-alpha) / tests);
-  double low = 0, high = 40;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = (low + high) / 2;
-    (std::erfc(middle / std::sqrt(2.0)) / 2 > tail ? low : high) = middle;
-  }
-  return high;
-}
-
 }  // namespace sateen::test

@@ -77,9 +77,6 @@ inline double brightness(const Fabric& fabric, const ThreadSums<float>& s) {
          double(mean_component(fabric.A[1])) * s.volume[1];
 }
 
-/// The largest deviate that `tests` independent standard normal deviates stay below with probability 1 - alpha.
-double sidak_deviate(double alpha, double tests);
-
 /// A double direction of unit length from the float one: the oracle's view of the same pair.
 inline Vec3d exact(const Vec3& w) {
   const Vec3d v(w.x, w.y, w.z);
