@@ -48,8 +48,8 @@ std::string wrapped(const std::string& text, size_t indent, size_t width) {
 std::string range_text(double low, double high) {
   constexpr double beyond = 1e15;
   if (low <= -beyond && high >= beyond) return "a number";
-  if (high >= beyond) return low > 0 && low < 1e-9 ? "more than 0" : fmt::format("{} or more", low);
-  return fmt::format("{} to {}", low, high);
+  if (high >= beyond) return fmt::format("{} or more", low);
+  return fmt::format("a number from {} to {}", low, high);
 }
 }  // namespace
 
@@ -109,8 +109,11 @@ void Command::custom(const std::string& names, const std::string& value, int few
   s->add(names, value, help);
   s->app
       .add_option(names,
-                  [s, read = std::move(read)](const std::vector<std::string>& words) {
+                  [s, names, value, fewest, read = std::move(read)](const std::vector<std::string>& words) {
                     try {
+                      // The parser counts the values of one use together with those of another.
+                      if (int(words.size()) < fewest)
+                        throw InputError(fmt::format("{} wants {} values: {}", long_name(names), fewest, value));
                       read(words);
                     } catch (const InputError& error) {
                       s->fault(error);
@@ -228,7 +231,7 @@ void Command::State::collect_leftovers() {
   const int count = int(plain.size());
   if (!arguments && count > 0) {
     faults.push_back(InputError(fmt::format("{} is not expected here", shown_name(plain[0])),
-                                "every value stands behind its flag")
+                                fmt::format("values stand behind their flags; sateen {} --help lists them", name))
                          .diagnostics[0]);
   } else if (arguments && count < fewest_arguments) {
     faults.push_back(InputError(fmt::format("{} is missing: {}", argument, argument_help)).diagnostics[0]);
@@ -259,10 +262,7 @@ bool Command::parse(const std::vector<std::string>& words) {
     print_result(help());
     return false;
   }
-  if (!s.faults.empty()) {
-    s.faults.back().help += (s.faults.back().help.empty() ? "" : "\n  ") + s.usage_line();
-    throw InputError(InputError::Kind::wrong, s.faults);
-  }
+  if (!s.faults.empty()) throw UsageError(s.faults, s.usage_line());
   return true;
 }
 

@@ -8,6 +8,12 @@
 
 namespace sateen::app {
 
+/// Wrong use of a command line, with the line that shows the right one.
+struct UsageError : InputError {
+  UsageError(std::vector<Diagnostic> all, std::string line) : InputError(Kind::wrong, std::move(all)), usage(std::move(line)) {}
+  std::string usage;
+};
+
 /// The flags and arguments of one subcommand: reads them, checks them, and writes the help. Every fault of a command
 /// line is reported in one go.
 class Command {

@@ -61,7 +61,7 @@ void add_scene(Command& c, PictureFlags& f) {
         } else {
           const std::string near = nearest_name(text, {"none", "environment"});
           throw InputError(fmt::format("--backdrop is {}, expected none, environment, #rrggbb or r,g,b", shown_name(text)),
-                           near.empty() ? "" : "did you mean " + near + "?");
+                           near.empty() ? "#000000 is black, #ffffff white" : "did you mean " + near + "?");
         }
       },
       "behind the cloth. none: grey paper in display pictures, alpha in an EXR. #rrggbb: that colour on the display, alpha "
@@ -123,13 +123,16 @@ void add_output(Command& c, PictureFlags& f) {
       "--exposure", "EV|auto", 1, 1,
       [&f](const auto& w) {
         f.exposure_ev.reset();
-        if (w.back() != "auto") f.exposure_ev = float(read_number("--exposure", w.back(), -100, 100));
+        if (w.back() == "auto") return;
+        if (w.back().find_first_of("0123456789") == std::string::npos)
+          throw InputError(fmt::format("--exposure is {}, expected auto or a number of stops", shown_name(w.back())));
+        f.exposure_ev = float(read_number("--exposure", w.back(), -100, 100));
       },
       "of display pictures; an EXR keeps the light as it is (default: auto, metered from the light)");
   c.text("--ocio", "FILE", f.ocio, "colour config, or built-in (default: $OCIO, else built-in)");
   c.text("--working", "NAME", f.working, "space to render in (default: the config's scene_linear role)");
-  c.text("--display", "NAME", f.display.display, "(default: the config's own)");
-  c.text("--view", "NAME", f.display.view, "(default: the display's own)");
+  c.text("--display", "NAME", f.display.display, "what the picture will be shown on (default: the config's first, built-in: sRGB; or Rec.1886 Rec.709)");
+  c.text("--view", "NAME", f.display.view, "how light becomes display colour (default: the display's first, built-in: ACES SDR; or Un-tone-mapped, Raw)");
   c.flag("--transparent", f.display.transparent, "alpha instead of a backdrop in PNG and TIFF");
 
   c.group("Output");

@@ -35,9 +35,11 @@ std::string error_text(const PictureError& e) {
                  : std::string("error not known below 2 samples a pixel");
 }
 
+std::string samples_text(int n) { return n == 1 ? "1 sample a pixel" : fmt::format("{} samples a pixel", n); }
+
 std::string rules_text(const StopRules& stop) {
   std::vector<std::string> rules;
-  if (stop.spp > 0) rules.push_back(fmt::format("{} samples a pixel", stop.spp));
+  if (stop.spp > 0) rules.push_back(samples_text(stop.spp));
   if (stop.error > 0) rules.push_back(fmt::format("error {}", stop.error));
   if (stop.seconds > 0) rules.push_back(seconds_text(stop.seconds));
   return fmt::format("{}", fmt::join(rules, " or "));
@@ -170,7 +172,7 @@ void print_written(const PictureJob& job, const WrittenPicture& file) {
 }
 
 void print_result_line(const PictureJob& job, const RenderResult& result) {
-  print_note(fmt::format("{} samples a pixel in {}, {}; {}", result.samples, seconds_text(result.seconds),
+  print_note(fmt::format("{} in {}, {}; {}", samples_text(result.samples), seconds_text(result.seconds),
                          error_text(result.error), reason_text(job.render.stop, result)));
   print_detail(fmt::format("first complete pass after {:.2f} s; {:.1f} CPU-s; rays: {} camera, {} shadow, {} bounce; peak memory {}",
                            result.first_pass_seconds, result.cpu_seconds, count_text(result.rays.camera),

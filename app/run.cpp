@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
+#include "command.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
@@ -63,6 +64,9 @@ int dispatch(const std::vector<std::string>& words) {
     print_result("sateen " SATEEN_VERSION);
     return done;
   }
+  if (words[0][0] == '-')
+    throw InputError(fmt::format("a command is missing before {}", shown_name(words[0])),
+                     fmt::format("sateen render {}", words[0]));
   return run_named(subcommands(), "sateen", words);
 }
 }  // namespace
@@ -91,6 +95,9 @@ int run(int argc, char** argv) {
   int code = done;
   try {
     code = dispatch({argv + (argc > 0), argv + argc});
+  } catch (const UsageError& error) {
+    print_error(fmt::format("{}\n{}", error.what(), error.usage));
+    code = wrong_use;
   } catch (const InputError& error) {
     print_error(error.what());
     code = error.kind == InputError::Kind::unreadable ? unreadable : wrong_use;

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <future>
 
+#include "base/error.h"
 #include "base/files.h"
+#include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "look/describe.h"
 #include "look/read.h"
@@ -53,9 +55,20 @@ struct Cloth {
   Camera camera;
 };
 
+ControlMesh read_cage(const std::string& name) {
+  if (is_built_in_shape(name)) return built_in_shape(name);
+  std::error_code code;
+  // A word without a folder or an extension was meant as a name.
+  if (!std::filesystem::exists(name, code) && name.find_first_of("/.") == std::string::npos)
+    throw InputError(fmt::format("there is no mesh called {}", name),
+                     suggestion(name, built_in_shapes()) + " (or the path of an OBJ)",
+                     InputError::Kind::unreadable);
+  return read_obj(name);
+}
+
 Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   const double start = now();
-  const ControlMesh cage = is_built_in_shape(settings.mesh) ? built_in_shape(settings.mesh) : read_obj(settings.mesh);
+  const ControlMesh cage = read_cage(settings.mesh);
   report.mesh_hash = hash_mesh(cage);
   report.cage_faces = std::int64_t(cage.face_sizes.size());
   Cloth cloth;

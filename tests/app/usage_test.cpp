@@ -15,33 +15,33 @@ const std::string render_usage = "usage: sateen render [--look NAME] [--mesh FIL
 
 TEST(Usage, AMisspeltFlagIsAnsweredWithTheNearestOne) {
   expect_refused(run_sateen({"render", "--lok", "silk"}), 2,
-                 "error: there is no flag --lok\n  help: did you mean --look?\n  " + render_usage);
+                 "error: there is no flag --lok\n  help: did you mean --look?\n" + render_usage);
 }
 
 TEST(Usage, TheStartOfAFlagIsAnsweredWithTheWholeOne) {
   expect_refused(run_sateen({"render", "--expos=1"}), 2,
-                 "error: there is no flag --expos\n  help: did you mean --exposure?\n  " + render_usage);
+                 "error: there is no flag --expos\n  help: did you mean --exposure?\n" + render_usage);
 }
 
 TEST(Usage, EveryFaultOfACommandLineIsToldAtOnce) {
   expect_refused(run_sateen({"render", "--spp", "0", "--fov", "wide", "--wat"}), 2,
-                 "error: --fov is wide, expected 1 to 150\n"
+                 "error: --fov is wide, expected a number from 1 to 150\n"
                  "error: --spp is 0, expected a whole number from 1 to 1073741824\n"
-                 "error: there is no flag --wat\n  help: sateen render --help lists the flags\n  " + render_usage);
+                 "error: there is no flag --wat\n  help: sateen render --help lists the flags\n" + render_usage);
 }
 
 TEST(Usage, AMisspeltValueIsAnsweredWithTheNearestOne) {
   expect_refused(run_sateen({"render", "--strategy", "mis-compensate"}), 2,
                  "error: unknown strategy 'mis-compensate'\n  help: did you mean mis-compensated?\n");
   expect_refused(run_sateen({"render", "--progress", "barr"}), 2,
-                 "error: --progress is barr\n  help: did you mean bar?\n  " + render_usage);
+                 "error: --progress is barr\n  help: did you mean bar?\n" + render_usage);
   expect_refused(run_sateen({"render", "--aov", "albedo,norml"}), 2,
                  "error: there is no layer norml\n  help: known: direct, indirect, backdrop, surface, volume, warp_surface, "
                  "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
 }
 
 TEST(Usage, AFlagWithoutItsValueSaysWhatItWants) {
-  expect_refused(run_sateen({"render", "--look"}), 2, "error: --look wants its value: NAME|FILE\n  help: " + render_usage);
+  expect_refused(run_sateen({"render", "--look"}), 2, "error: --look wants its value: NAME|FILE\n" + render_usage);
 }
 
 TEST(Usage, AMisspeltCommandIsAnsweredWithTheNearestOne) {
@@ -94,6 +94,18 @@ TEST(Usage, OutputsThatCannotBeWrittenAreRefusedBeforeAnythingIsRendered) {
 TEST(Usage, ACropOutsideThePictureIsRefused) {
   expect_refused(run_sateen({"render", "-r", "64", "36", "--crop", "0", "0", "65", "36"}), 2,
                  "error: --crop ends at 65 36, expected at most 64 36, the size of the picture\n");
+}
+
+TEST(Usage, FlagsOfSeveralValuesSayHowManyTheyWant) {
+  expect_refused(run_sateen({"render", "--crop", "1", "2", "3"}), 2,
+                 "error: --crop wants 4 values: X0 Y0 X1 Y1\n" + render_usage);
+  expect_refused(run_sateen({"render", "--res", "96"}), 2,
+                 "error: --res is 96, expected two numbers: a width and a height\n" + render_usage);
+}
+
+TEST(Usage, AMisspeltShapeIsAnsweredWithTheNearestOne) {
+  expect_refused(run_sateen({"render", "--mesh", "drap"}), 3,
+                 "error: there is no mesh called drap\n  help: did you mean drape? (or the path of an OBJ)\n");
 }
 
 TEST(Usage, ARangeIntoANameWithoutAPlaceIsRefused) {
