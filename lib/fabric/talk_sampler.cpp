@@ -104,8 +104,10 @@ Vec3 sample_talk(const TalkTangents& t, const TalkView& view, const std::array<d
     theta = 2 * t.gamma_v[k] * std::tan(float(direction[0]) * view.spread_v[k] + view.b_v[k]) - view.theta_r[k];
   }
   theta = std::clamp(theta, -half_pi, half_pi);
+  // Never exactly opposite wo around the thread: the density is 0 there.
+  constexpr float below_one = 0x1.fffffep-1f;
   const float phi = std::atan2(view.binormal_r[k], view.normal_r[k]) -
-                    2 * std::asin(std::clamp(2 * float(direction[1]) - 1, -1.0f, 1.0f));
+                    2 * std::asin(std::clamp(2 * float(direction[1]) - 1, -below_one, below_one));
   const float along = std::sin(theta), across = std::cos(theta);
   const float normal = across * std::cos(phi), b = across * std::sin(phi);
   const float d = along * t.cos_offset[k] - normal * t.sin_offset[k];
