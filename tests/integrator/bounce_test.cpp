@@ -61,13 +61,13 @@ void expect_plain_answer(const Scene& scene, const std::vector<int>& bounces, co
     Batches expected[3];
     for (int b = 0; b < 64; ++b) {
       Vec3d sum(0);
-      constexpr int samples = 4000;
+      constexpr int samples = 2000;
       for (int k = 0; k < samples; ++k) sum += Vec3d(plain.leaving(point, n));
       for (int c = 0; c < 3; ++c) expected[c].add(sum[c] / samples);
     }
     for (NamedSettings settings : all) {
       settings.light.bounces = n;
-      const Estimate got = estimate(scene, settings.light, 1024);
+      const Estimate got = estimate(scene, settings.light, 512);
       for (int c = 0; c < 3; ++c) {
         EXPECT_LT(std::abs(difference_deviate(got.channel[c], expected[c])), bound)
             << name << ", " << settings.name << ", " << n << " bounces, channel " << c << ": " << got.channel[c].mean

@@ -75,7 +75,7 @@ TEST(ConstantLight, ShowsTheReflectanceForEveryStrategy) {
       const Color shipped = albedo_color(scene.front, to_floor(view));
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(shipped[c], expected[c], 1e-3f * expected[c] + 1e-5f) << look;
       for (const NamedSettings& settings : all)
-        expect_value(estimate(scene, settings.light, 512), expected * 0.5f, deviate, quadrature_error,
+        expect_value(estimate(scene, settings.light, 256), expected * 0.5f, deviate, quadrature_error,
                      look + " by " + settings.name);
     }
   }
@@ -88,7 +88,7 @@ TEST(ConstantLight, GivesAClosedFormItsValue) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(quadrature[c], expected[c], quadrature_error * double(expected[c]));
   const Scene scene = floor_scene(fabric, constant_map(1), Vec3(0, 1, 0));
   for (const NamedSettings& settings : all_settings())
-    expect_value(estimate(scene, settings.light, 1024), expected, bound(30), 0, settings.name);
+    expect_value(estimate(scene, settings.light, 512), expected, bound(30), 0, settings.name);
 }
 
 TEST(ConstantLight, IsInvisibleOnAClothThatReflectsAllOfIt) {
@@ -134,7 +134,7 @@ TEST(Sun, StraightAboveGivesFTimesItsIrradiance) {
     for (const NamedSettings& settings : all) {
       // 1 direction in 14,000 meets the small one: only who knows the map can be held to it.
       if (width == 64 && !knows_the_map(settings.light.strategy)) continue;
-      expect_value(estimate(scene, settings.light, 2048), expected, bound(2 * all.size() * 3), 1e-4, settings.name);
+      expect_value(estimate(scene, settings.light, 1024), expected, bound(2 * all.size() * 3), 1e-4, settings.name);
     }
   }
 }
@@ -156,7 +156,7 @@ TEST(Sun, AnywhereElseGivesFTimesItsIrradiance) {
         return scattered(fabric, to_floor(Vec3(c * d.x - s * d.z, d.y, s * d.x + c * d.z)), to_floor(view));
       });
       for (const NamedSettings& settings : all)
-        expect_value(estimate(scene, settings.light, 1024), expected, deviate, 1e-4, settings.name);
+        expect_value(estimate(scene, settings.light, 512), expected, deviate, 1e-4, settings.name);
     }
 }
 
@@ -196,6 +196,19 @@ TEST(Shadow, OfARoofIsBlack) {
   }
 }
 
+TEST(Shadow, OfTheTriangleItselfIsBlackAlthoughTheNormalLeansOver) {
+  // Lit along the horizon from below the floor; the interpolated normal leans 20 degrees towards the light.
+  const Sun sun{64, 32, 48, 16, 1000};
+  ASSERT_LT(sun.direction(0.5, 0).y, 1e-6);
+  Mesh mesh = floor_quad();
+  for (Vec3& n : mesh.normals) n = normalize(Vec3(std::sin(radians(20)), std::cos(radians(20)), 0));
+  ASSERT_GT(dot(mesh.normals[0], sun.direction(0.5, 1)), 0.2f);
+  Scene scene = make_scene(std::move(mesh), fabric_of(lopsided_look()), sun.map());
+  scene.camera = distant_camera(Vec3(0), Vec3(0.3f, 1, 0), 0.1f);
+  for (const NamedSettings& settings : all_settings(1))
+    EXPECT_EQ(estimate(scene, settings.light, 512).channel[0].mean, 0) << settings.name;
+}
+
 TEST(Shadow, OfARoofWithGapsLetsTheirShareThrough) {
   Look look = lopsided_look();
   look.warp.coverage = 0.35f;
@@ -209,7 +222,7 @@ TEST(Shadow, OfARoofWithGapsLetsTheirShareThrough) {
   for (int roofs = 0; roofs <= 3; ++roofs) {
     const Scene scene = roofed(fabric, roofs, sun.map());
     for (const NamedSettings& settings : all)
-      expect_value(estimate(scene, settings.light, 1024), open * std::pow(0.4f, float(roofs)), bound(4 * all.size() * 3),
+      expect_value(estimate(scene, settings.light, 512), open * std::pow(0.4f, float(roofs)), bound(4 * all.size() * 3),
                    1e-4, settings.name + " under " + std::to_string(roofs) + " roofs");
   }
 }
@@ -269,7 +282,7 @@ TEST(BackOfTheCloth, ShowsItsOwnLookOrElseTheFronts) {
     const Fabric& seen = own ? back : front;
     const Color expected = sun.integral([&](const Vec3& d) { return scattered(seen, to_back(d), to_back(view)); });
     for (const NamedSettings& settings : all_settings())
-      expect_value(estimate(scene, settings.light, 1024), expected, bound(60), 1e-4,
+      expect_value(estimate(scene, settings.light, 512), expected, bound(60), 1e-4,
                    settings.name + (own ? ", own look" : ", the front's"));
   }
   // The front is still the front.
@@ -294,7 +307,7 @@ TEST(MirroredUvs, TurnTheWeftAround) {
   const Color expected = sunlit(to_mirrored);
   ASSERT_GT(std::abs(sunlit(to_floor).x / expected.x - 1), 0.05) << "the scene cannot tell one from the other";
   for (const NamedSettings& settings : all_settings())
-    expect_value(estimate(scene, settings.light, 1024), expected, bound(30), 1e-4, settings.name);
+    expect_value(estimate(scene, settings.light, 512), expected, bound(30), 1e-4, settings.name);
 }
 
 TEST(WarpAngle, OfNinetyDegreesExchangesWarpAndWeft) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "look/describe.h"
 #include "look/read.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
@@ -19,9 +20,12 @@ const Look& shipped_look(const std::string& name) {
 }
 
 Fabric fabric_of(const Look& look) {
+  static std::map<std::string, Fabric> compiled;
+  const auto [at, fresh] = compiled.try_emplace(look_hash(look));
   FabricParts parts;
   parts.threads = 2;
-  return compile_fabric(look, same_space, parts);
+  if (fresh) at->second = compile_fabric(look, same_space, parts);
+  return at->second;
 }
 
 Mesh shape(const std::string& name, int level) { return subdivide(built_in_shape(name), level, 2); }
