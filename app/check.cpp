@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "command.h"
 #include "commands.h"
 #include "console.h"
@@ -17,7 +18,6 @@
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
-#include "base/files.h"
 #include "scene/environment_file.h"
 #include "scene/environment_make.h"
 
@@ -28,7 +28,7 @@ namespace {
 struct Finding {
   std::string path, kind;
   std::vector<std::string> facts, notices;
-  std::string error;           ///< the message, as it would stop a rendering
+  std::string error;  ///< the message, as it would stop a rendering
   int code = done;
 };
 
@@ -52,8 +52,8 @@ std::string kind_of(const std::string& name) {
   const std::string extension = lower_extension(name);
   if (extension == ".json") return is_map_description(name) ? "map description" : "look";
   if (extension == ".obj") return "mesh";
-  if (extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff" || extension == ".png" ||
-      extension == ".jpg" || extension == ".jpeg")
+  if (extension == ".exr" || extension == ".hdr" || extension == ".tif" || extension == ".tiff" ||
+      extension == ".png" || extension == ".jpg" || extension == ".jpeg")
     return "map";
   if (is_built_in_shape(name)) return "mesh";
   for (const LookEntry& entry : list_looks())
@@ -64,7 +64,8 @@ std::string kind_of(const std::string& name) {
   if (!std::filesystem::exists(name, code))
     throw InputError(fmt::format("{}: no such file, and no look, mesh or map of that name", shown_name(name)),
                      "sateen look list and sateen env list show the names", InputError::Kind::unreadable);
-  throw InputError(fmt::format("{}: neither a look (.json), a mesh (.obj) nor a map (.exr, .hdr, .tif, .png, .jpg)", shown_name(name)),
+  throw InputError(fmt::format("{}: neither a look (.json), a mesh (.obj) nor a map (.exr, .hdr, .tif, .png, .jpg)",
+                               shown_name(name)),
                    extension.empty() ? "" : fmt::format("files of kind {} are not read", extension));
 }
 
@@ -79,8 +80,9 @@ void check_look(Finding& f) {
     const Color a = albedo_color(measured.fabric, view.direction());
     brightest = std::max(brightest, max_component(a));
     if (max_component(a) > 1)
-      f.notices.push_back(fmt::format("its albedo at {} degrees is {:.3f} {:.3f} {:.3f}, above 1: it glows there; lower A or the colour",
-                                      view.text(), a.x, a.y, a.z));
+      f.notices.push_back(fmt::format(
+          "its albedo at {} degrees is {:.3f} {:.3f} {:.3f}, above 1: it glows there; lower A or the colour",
+          view.text(), a.x, a.y, a.z));
   }
   f.facts.push_back(fmt::format("largest albedo {:.3f}", brightest));
   if (look.source.empty()) f.notices.push_back("it has no source: say in \"source\" where its numbers come from");
@@ -90,20 +92,24 @@ void check_mesh(Finding& f) {
   const ControlMesh cage = is_built_in_shape(f.path) ? built_in_shape(f.path) : read_obj(f.path);
   size_t triangles = 0, quads = 0;
   for (const int size : cage.face_sizes) triangles += size == 3, quads += size == 4;
-  f.facts.push_back(fmt::format("{} vertices, {} faces: {} quads, {} triangles, {} with more corners", cage.positions.size(),
-                                cage.face_sizes.size(), quads, triangles, cage.face_sizes.size() - quads - triangles));
+  f.facts.push_back(fmt::format("{} vertices, {} faces: {} quads, {} triangles, {} with more corners",
+                                cage.positions.size(), cage.face_sizes.size(), quads, triangles,
+                                cage.face_sizes.size() - quads - triangles));
   if (!cage.creases.empty() || !cage.corners.empty() || !cage.holes.empty())
-    f.facts.push_back(fmt::format("{} creases, {} sharp corners, {} holes", cage.creases.size(), cage.corners.size(), cage.holes.size()));
+    f.facts.push_back(fmt::format("{} creases, {} sharp corners, {} holes", cage.creases.size(), cage.corners.size(),
+                                  cage.holes.size()));
   const Mesh mesh = subdivide(cage, 1);
   const Vec3 size = mesh.bounds_max - mesh.bounds_min;
   f.facts.push_back(fmt::format("limit surface {:.4g} x {:.4g} x {:.4g} scene units", size.x, size.y, size.z));
   for (const std::string& warning : mesh.warnings) f.notices.push_back(warning);
   if (cage.uvs.empty()) {
-    f.notices.push_back("it has no UVs: the warp follows the object's X axis; unwrap it so that u runs along the warp");
+    f.notices.push_back(
+        "it has no UVs: the warp follows the object's X axis; unwrap it so that u runs along the warp");
   } else if (mesh.fallback_warps > 0) {
-    f.notices.push_back(fmt::format("{} of {} vertices have missing or degenerate UVs: their warp follows the object's X axis; --aov warp "
-                                    "shows where",
-                                    mesh.fallback_warps, mesh.positions.size()));
+    f.notices.push_back(fmt::format(
+        "{} of {} vertices have missing or degenerate UVs: their warp follows the object's X axis; --aov warp "
+        "shows where",
+        mesh.fallback_warps, mesh.positions.size()));
   }
 }
 
@@ -113,12 +119,14 @@ void check_map(Finding& f) {
   const Environment map = read_environment(f.path, colors, {}, &space);
   const EnvironmentReport report = inspect_environment(map);
   f.facts.push_back(fmt::format("{} x {}, {}", report.width, report.height, space));
-  f.facts.push_back(fmt::format("{:.1f} stops, largest over mean luminance {:.4g}, metered exposure {:+.2f} EV", report.stops,
-                                report.largest_over_mean, report.metered_ev));
+  f.facts.push_back(fmt::format("{:.1f} stops, largest over mean luminance {:.4g}, metered exposure {:+.2f} EV",
+                                report.stops, report.largest_over_mean, report.metered_ev));
   for (const std::string& repair : repair_texts(report.repairs)) f.notices.push_back(repair);
   if (map.black) f.notices.push_back("it is black: nothing will be lit");
   if (report.width != 2 * report.height)
-    f.notices.push_back(fmt::format("it is {} x {}, and a lat-long map is twice as wide as high: it will be stretched", report.width, report.height));
+    f.notices.push_back(
+        fmt::format("it is {} x {}, and a lat-long map is twice as wide as high: it will be stretched", report.width,
+                    report.height));
   const std::string extension = lower_extension(f.path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
     f.notices.push_back("a format without high dynamic range: lights are cut at white; use EXR or HDR");
@@ -146,8 +154,9 @@ Finding examine(const std::string& name) {
 
 int run_check(const std::vector<std::string>& words) {
   std::vector<std::string> names;
-  Command command("check", "Says what looks, meshes and HDR maps hold, what is wrong with them or was repaired, and what to do.",
-                  "FILE... [--json]");
+  Command command(
+      "check", "Says what looks, meshes and HDR maps hold, what is wrong with them or was repaired, and what to do.",
+      "FILE... [--json]");
   command.arguments("FILE", names, 1, 10000, "looks, meshes, maps and map descriptions in any mixture; names too");
   command.flag("--json", voice.json, "the same as JSON");
   command.example("sateen check my_look.json dress.obj studio.hdr", "three files of three kinds");
@@ -167,7 +176,10 @@ int run_check(const std::vector<std::string>& words) {
     if (!f.error.empty()) w.member("error", f.error);
     w.close();
     if (voice.json) continue;
-    std::string text = fmt::format("{}: {}\n", f.path, !f.error.empty() ? "not usable" : f.notices.empty() ? f.kind + ", good" : f.kind);
+    std::string text = fmt::format("{}: {}\n", f.path,
+                                   !f.error.empty()    ? "not usable"
+                                   : f.notices.empty() ? f.kind + ", good"
+                                                       : f.kind);
     for (const std::string& fact : f.facts) text += "  " + fact + "\n";
     for (const std::string& notice : f.notices) text += "  note: " + notice + "\n";
     print_result(text);

@@ -1,9 +1,9 @@
 #include "command.h"
 
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -21,7 +21,9 @@ struct Flag {
   std::string group, names, value, help;
 };
 
-std::string long_name(const std::string& names) { return names.substr(names.find("--")); }
+std::string long_name(const std::string& names) {
+  return names.substr(names.find("--"));
+}
 
 // "-o,--output" as "-o, --output"; without a short twin the column stays free.
 std::string shown_names(const std::string& names) {
@@ -90,8 +92,12 @@ Command::Command(std::string name, std::string summary, std::string usage) : sta
 }
 Command::~Command() = default;
 
-void Command::group(std::string title) { state_->current_group = std::move(title); }
-void Command::paragraph(std::string text) { state_->paragraphs.push_back(std::move(text)); }
+void Command::group(std::string title) {
+  state_->current_group = std::move(title);
+}
+void Command::paragraph(std::string text) {
+  state_->paragraphs.push_back(std::move(text));
+}
 void Command::example(std::string line, std::string meaning) {
   state_->examples.emplace_back(std::move(line), std::move(meaning));
 }
@@ -266,7 +272,9 @@ bool Command::parse(const std::vector<std::string>& words) {
   return true;
 }
 
-bool Command::given(const std::string& name) const { return state_->app.count(name) > 0; }
+bool Command::given(const std::string& name) const {
+  return state_->app.count(name) > 0;
+}
 
 std::string Command::help() const {
   const State& s = *state_;
@@ -297,7 +305,8 @@ int read_integer(const std::string& what, const std::string& text, long long low
   long long value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size() || value < low || value > high)
-    throw InputError(fmt::format("{} is {}, expected a whole number from {} to {}", what, shown_name(text), low, high));
+    throw InputError(
+        fmt::format("{} is {}, expected a whole number from {} to {}", what, shown_name(text), low, high));
   return int(value);
 }
 

@@ -10,7 +10,8 @@ namespace sateen::app {
 
 /// Wrong use of a command line, with the line that shows the right one.
 struct UsageError : InputError {
-  UsageError(std::vector<Diagnostic> all, std::string line) : InputError(Kind::wrong, std::move(all)), usage(std::move(line)) {}
+  UsageError(std::vector<Diagnostic> all, std::string line)
+      : InputError(Kind::wrong, std::move(all)), usage(std::move(line)) {}
   std::string usage;
 };
 
@@ -22,7 +23,7 @@ class Command {
   Command(std::string name, std::string summary, std::string usage);
   ~Command();
 
-  void group(std::string title);  ///< heading for the flags that follow
+  void group(std::string title);     ///< heading for the flags that follow
   void paragraph(std::string text);  ///< shown under the summary
   void example(std::string line, std::string meaning);
 

@@ -27,7 +27,8 @@ const std::vector<Subcommand>& subcommands();
 int run_group(const std::string& prefix, const std::string& summary, const std::vector<Subcommand>& table,
               const std::vector<std::string>& words);
 
-/// Calls the entry that words[0] names, with the rest; wrong use where there is none. `prefix`: "sateen", "sateen look".
+/// Calls the entry that words[0] names, with the rest; wrong use where there is none. `prefix`: "sateen", "sateen
+/// look".
 int run_named(const std::vector<Subcommand>& table, const std::string& prefix, const std::vector<std::string>& words);
 
 }  // namespace sateen::app

@@ -21,7 +21,9 @@ void put(std::FILE* file, std::string_view text, const char* end) {
 }
 }  // namespace
 
-void print_result(std::string_view text) { put(stdout, text, text.ends_with('\n') ? "" : "\n"); }
+void print_result(std::string_view text) {
+  put(stdout, text, text.ends_with('\n') ? "" : "\n");
+}
 void print_note(std::string_view line) {
   if (voice.verbosity != Verbosity::quiet) put(voice.json ? stderr : stdout, line, "\n");
 }
@@ -32,10 +34,16 @@ void print_warning(std::string_view line) {
   put(stderr, "warning: ", "");
   put(stderr, line, "\n");
 }
-void print_progress(std::string_view text) { put(stderr, text, ""); }
-void print_error(std::string_view text) { put(stderr, text, "\n"); }
+void print_progress(std::string_view text) {
+  put(stderr, text, "");
+}
+void print_error(std::string_view text) {
+  put(stderr, text, "\n");
+}
 
-bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+bool error_is_terminal() {
+  return isatty(STDERR_FILENO) == 1;
+}
 
 bool finish_output() {
   if (std::fflush(stdout) != 0 && output_error == 0) output_error = errno;

@@ -13,12 +13,12 @@ struct Voice {
 };
 extern Voice voice;
 
-void print_result(std::string_view text);               ///< always, as it is
-void print_note(std::string_view line);                 ///< unless quiet; to standard error with --json
-void print_detail(std::string_view line);               ///< with -v
+void print_result(std::string_view text);  ///< always, as it is
+void print_note(std::string_view line);    ///< unless quiet; to standard error with --json
+void print_detail(std::string_view line);  ///< with -v
 void print_warning(std::string_view line);
-void print_progress(std::string_view text);             ///< to standard error, as it is
-void print_error(std::string_view text);                ///< as it is, with a line break
+void print_progress(std::string_view text);  ///< to standard error, as it is
+void print_error(std::string_view text);     ///< as it is, with a line break
 
 bool error_is_terminal();
 

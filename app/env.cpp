@@ -20,7 +20,8 @@ int env_make(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   std::string output;
   int width = 0, height = 0;
-  Command command("env make", "Makes an HDR map from a description of its lights.", "DESCRIPTION.json -o MAP.exr [-r W H]");
+  Command command("env make", "Makes an HDR map from a description of its lights.",
+                  "DESCRIPTION.json -o MAP.exr [-r W H]");
   command.arguments("DESCRIPTION.json", names, 1, 1, "lights as JSON; those of the shipped maps are in envmaps/");
   command.text("-o,--output", "FILE.exr", output, "where to write it");
   command.custom(
@@ -39,13 +40,15 @@ int env_make(const std::vector<std::string>& words) {
   MapDescription description = read_map_description(names[0]);
   if (width > 0) description.width = width, description.height = height;
   const long long beyond = write_made_environment(output, description);
-  if (beyond > 0) print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504", output, beyond));
+  if (beyond > 0)
+    print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504", output, beyond));
   if (voice.json) {
     JsonWriter w;
     w.open_object().member("path", output).member("width", description.width).member("height", description.height);
     print_result(w.member("clamped", beyond).close().text());
   } else {
-    print_note(fmt::format("wrote {}  {} x {}, {}", output, description.width, description.height, description.color_space));
+    print_note(
+        fmt::format("wrote {}  {} x {}, {}", output, description.width, description.height, description.color_space));
   }
   return done;
 }
@@ -54,7 +57,8 @@ int env_inspect(const std::vector<std::string>& words) {
   std::vector<std::string> names;
   EnvironmentFileOptions options;
   std::string ocio, working;
-  Command command("env inspect", "Prints what an HDR map holds: size, range, repairs, and where its light is.", "MAP... [flags]");
+  Command command("env inspect", "Prints what an HDR map holds: size, range, repairs, and where its light is.",
+                  "MAP... [flags]");
   command.arguments("MAP", names, 1, 1000, "names or files");
   command.number("--env-rotate", "DEG", options.rotation_deg, -36000, 36000, "turns the light to the right");
   command.number("--env-exposure", "EV", options.exposure_ev, -100, 100, "brightens the light by stops");
@@ -62,7 +66,8 @@ int env_inspect(const std::vector<std::string>& words) {
   command.text("--ocio", "FILE", ocio, "colour config, or built-in (default: $OCIO, else built-in)");
   command.text("--working", "NAME", working, "space of the numbers (default: the config's scene_linear role)");
   command.flag("--json", voice.json, "the same as JSON");
-  command.example("sateen env inspect studio_softboxes", "azimuth 0 is the camera's side, 90 the right of the picture");
+  command.example("sateen env inspect studio_softboxes",
+                  "azimuth 0 is the camera's side, 90 the right of the picture");
   if (!command.parse(words)) return done;
   const ColorManager colors(ocio, working);
   JsonWriter w;
@@ -80,8 +85,10 @@ int env_inspect(const std::vector<std::string>& words) {
 }
 
 int env_list(const std::vector<std::string>& words) {
-  Command command("env list", "Lists the maps that are found by name: here, in SATEEN_PATH, the program's own, an installed Blender's.",
-                  "[--json]");
+  Command command(
+      "env list",
+      "Lists the maps that are found by name: here, in SATEEN_PATH, the program's own, an installed Blender's.",
+      "[--json]");
   command.flag("--json", voice.json, "the same as JSON, with paths");
   if (!command.parse(words)) return done;
   JsonWriter w;

@@ -8,7 +8,8 @@ std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs) {
   std::vector<std::string> texts;
   const auto add = [&](const EnvironmentRepairs::Kind& kind, const char* what) {
     if (kind.count > 0)
-      texts.push_back(fmt::format("{} pixel{} {}, first at {} {}", kind.count, kind.count == 1 ? "" : "s", what, kind.first_x, kind.first_y));
+      texts.push_back(fmt::format("{} pixel{} {}, first at {} {}", kind.count, kind.count == 1 ? "" : "s", what,
+                                  kind.first_x, kind.first_y));
   };
   add(repairs.not_a_number, "not a number: made 0");
   add(repairs.infinite, "infinite: made the map's largest finite value");
@@ -20,18 +21,23 @@ std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs) {
 
 std::string environment_text(const std::string& path, const std::string& space, const EnvironmentReport& r) {
   std::string text = fmt::format("{}  {} x {}, {}\n", path, r.width, r.height, space);
-  text += fmt::format("  luminance {:.4g} to {:.4g}, mean {:.4g}; largest over mean {:.4g}; {:.1f} stops\n", r.smallest,
-                      r.largest, r.mean, r.largest_over_mean, r.stops);
+  text += fmt::format("  luminance {:.4g} to {:.4g}, mean {:.4g}; largest over mean {:.4g}; {:.1f} stops\n",
+                      r.smallest, r.largest, r.mean, r.largest_over_mean, r.stops);
   text += fmt::format("  metered exposure {:+.2f} EV\n", r.metered_ev);
   for (const std::string& repair : repair_texts(r.repairs)) text += "  " + repair + "\n";
   for (const LightRegion& region : r.regions)
-    text += fmt::format("  light at azimuth {:.0f}, elevation {:.0f}: {:.1f} % of the energy, {:.3g} sr, peak {:.4g}\n",
-                        region.azimuth_deg, region.elevation_deg, 100 * region.share, region.solid_angle, region.peak);
+    text +=
+        fmt::format("  light at azimuth {:.0f}, elevation {:.0f}: {:.1f} % of the energy, {:.3g} sr, peak {:.4g}\n",
+                    region.azimuth_deg, region.elevation_deg, 100 * region.share, region.solid_angle, region.peak);
   return text;
 }
 
 void write_environment(JsonWriter& w, const std::string& path, const std::string& space, const EnvironmentReport& r) {
-  w.open_object().member("path", path).member("color_space", space).member("width", r.width).member("height", r.height);
+  w.open_object()
+      .member("path", path)
+      .member("color_space", space)
+      .member("width", r.width)
+      .member("height", r.height);
   w.member("smallest", r.smallest).member("largest", r.largest).member("mean", r.mean);
   w.member("largest_over_mean", r.largest_over_mean).member("stops", r.stops).member("metered_ev", r.metered_ev);
   w.key("repairs").open_object();

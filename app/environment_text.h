@@ -13,6 +13,7 @@ std::string environment_text(const std::string& path, const std::string& space, 
 std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs);
 
 /// The same as a JSON object.
-void write_environment(JsonWriter& w, const std::string& path, const std::string& space, const EnvironmentReport& report);
+void write_environment(JsonWriter& w, const std::string& path, const std::string& space,
+                       const EnvironmentReport& report);
 
 }  // namespace sateen::app

@@ -17,7 +17,8 @@ namespace sateen::app {
 
 namespace {
 int look_list(const std::vector<std::string>& words) {
-  Command command("look list", "Lists the looks that are found by name: here, in SATEEN_PATH, in the program's own folder.",
+  Command command("look list",
+                  "Lists the looks that are found by name: here, in SATEEN_PATH, in the program's own folder.",
                   "[--json]");
   command.flag("--json", voice.json, "the same as JSON, with paths");
   if (!command.parse(words)) return done;
@@ -81,8 +82,8 @@ std::vector<LobeSummary> print_albedo(const MeasuredLook& measured, std::string&
     s.albedo = albedo_color(measured.fabric, view.direction());
     const bool bright = max_component(s.albedo) > 1;
     if (bright) too_bright.push_back(s);
-    const std::string row = fmt::format("    {:>3.0f}  {:.3f} {:.3f} {:.3f}{}\n", view.angle_deg, s.albedo.x, s.albedo.y,
-                                        s.albedo.z, bright ? "  above 1" : "");
+    const std::string row = fmt::format("    {:>3.0f}  {:.3f} {:.3f} {:.3f}{}\n", view.angle_deg, s.albedo.x,
+                                        s.albedo.y, s.albedo.z, bright ? "  above 1" : "");
     if (!view.along_weft) rows[0] += row;
     if (view.along_weft || view.angle_deg == 0) rows[1] += row;
     w.open_object().member("angle_deg", view.angle_deg).member("along", view.along_weft ? "weft" : "warp");
@@ -96,10 +97,12 @@ std::vector<LobeSummary> print_albedo(const MeasuredLook& measured, std::string&
 
 int look_check(const std::vector<std::string>& words) {
   std::vector<std::string> names, overrides;
-  Command command("look check", "Reads looks, reports every error in them, and prints how much light they give back by view angle.",
+  Command command("look check",
+                  "Reads looks, reports every error in them, and prints how much light they give back by view angle.",
                   "[LOOK...] [--json]");
-  command.paragraph("Above an albedo of 1 a cloth gives back more light than it gets: it glows at that angle. The model "
-                    "allows it (A is a scale, not an albedo); lower A or the colour where it matters.");
+  command.paragraph(
+      "Above an albedo of 1 a cloth gives back more light than it gets: it glows at that angle. The model "
+      "allows it (A is a scale, not an albedo); lower A or the colour where it matters.");
   command.arguments("LOOK", names, 0, 1000, "names or files; without any: all looks that are found");
   command.texts("--set", "PATH=VALUE", overrides, "changes one field of each look; repeatable");
   command.flag("--json", voice.json, "the same as JSON");
@@ -126,7 +129,8 @@ int look_check(const std::vector<std::string>& words) {
 int look_resolve(const std::vector<std::string>& words) {
   std::vector<std::string> names, overrides;
   bool plain = false;
-  Command command("look resolve", "Prints a look with its parents merged, and where each value comes from.", "LOOK [--json]");
+  Command command("look resolve", "Prints a look with its parents merged, and where each value comes from.",
+                  "LOOK [--json]");
   command.arguments("LOOK", names, 1, 1, "name or file");
   command.texts("--set", "PATH=VALUE", overrides, "changes one field; repeatable");
   command.flag("--file", plain, "prints a look file that stands on its own instead");
@@ -139,7 +143,11 @@ int look_resolve(const std::vector<std::string>& words) {
     return done;
   }
   JsonWriter w;
-  w.open_object().member("name", resolved.look.name).member("hash", look_hash(resolved.look)).key("files").open_list();
+  w.open_object()
+      .member("name", resolved.look.name)
+      .member("hash", look_hash(resolved.look))
+      .key("files")
+      .open_list();
   for (const std::string& file : resolved.files) w.value(file);
   w.close().key("values").open_list();
   size_t path_width = 0, value_width = 0;
@@ -158,7 +166,8 @@ int look_resolve(const std::vector<std::string>& words) {
 
 int look_diff(const std::vector<std::string>& words) {
   std::vector<std::string> names;
-  Command command("look diff", "Prints the fields in which two looks differ. Titles, descriptions and sources do not count.",
+  Command command("look diff",
+                  "Prints the fields in which two looks differ. Titles, descriptions and sources do not count.",
                   "LOOK LOOK [--json]");
   command.arguments("LOOK", names, 2, 2, "two names or files");
   command.flag("--json", voice.json, "the same as JSON");
@@ -171,7 +180,8 @@ int look_diff(const std::vector<std::string>& words) {
   std::string text;
   for (const FieldDifference& d : differences) {
     const auto shown = [](const std::string& value) { return value.empty() ? std::string("(none)") : value; };
-    text += fmt::format("{}\n  {:<24} {}\n  {:<24} {}\n", d.path, looks[0].name, shown(d.a), looks[1].name, shown(d.b));
+    text +=
+        fmt::format("{}\n  {:<24} {}\n  {:<24} {}\n", d.path, looks[0].name, shown(d.a), looks[1].name, shown(d.b));
     w.open_object().member("path", d.path).member("a", d.a).member("b", d.b).close();
   }
   w.close().close();
@@ -183,7 +193,8 @@ int look_diff(const std::vector<std::string>& words) {
 int look_schema_command(const std::vector<std::string>& words) {
   std::string output;
   bool fields = false;
-  Command command("look schema", "Prints the JSON Schema of look files, with which editors complete and check while you type.",
+  Command command("look schema",
+                  "Prints the JSON Schema of look files, with which editors complete and check while you type.",
                   "[-o FILE]");
   command.text("-o,--output", "FILE", output, "writes it there instead");
   command.flag("--fields", fields, "prints all fields with range, unit, default and meaning, for people");

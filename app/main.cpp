@@ -2,8 +2,8 @@
 
 #include "run.h"
 
-// The library is built for AVX2 and FMA. This file is not, and its constructor runs before all others, so that an older
-// processor hears a sentence and not "illegal instruction".
+// The library is built for AVX2 and FMA. This file is not, and its constructor runs before all others, so that an
+// older processor hears a sentence and not "illegal instruction".
 #ifdef SATEEN_NEEDS_AVX2
 __attribute__((constructor(101))) static void check_processor() {
   __builtin_cpu_init();
@@ -16,4 +16,6 @@ __attribute__((constructor(101))) static void check_processor() {
 }
 #endif
 
-int main(int argc, char** argv) { return sateen::app::run(argc, argv); }
+int main(int argc, char** argv) {
+  return sateen::app::run(argc, argv);
+}

@@ -13,6 +13,7 @@ struct MeasuredLook {
   Fabric fabric;
   std::string space;
 };
-MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio = {}, const std::string& working = {});
+MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio = {},
+                          const std::string& working = {});
 
 }  // namespace sateen::app

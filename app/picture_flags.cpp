@@ -27,7 +27,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
 void add_scene(Command& c, PictureFlags& f) {
   SceneSettings& s = f.scene;
   c.group("Scene");
-  c.text("-l,--look", "NAME|FILE", s.look, fmt::format("the cloth (default: {}); sateen look list shows all", s.look));
+  c.text("-l,--look", "NAME|FILE", s.look,
+         fmt::format("the cloth (default: {}); sateen look list shows all", s.look));
   c.texts("--set", "PATH=VALUE", s.look_overrides,
           "changes one field of the look, such as warp.gamma_s_deg=4; repeatable");
   std::string shapes;
@@ -60,11 +61,13 @@ void add_scene(Command& c, PictureFlags& f) {
             f.scene.backdrop_color[i] = float(read_number("--backdrop", parts[size_t(i)], 0, 1e6));
         } else {
           const std::string near = nearest_name(text, {"none", "environment"});
-          throw InputError(fmt::format("--backdrop is {}, expected none, environment, #rrggbb or r,g,b", shown_name(text)),
-                           near.empty() ? "#000000 is black, #ffffff white" : "did you mean " + near + "?");
+          throw InputError(
+              fmt::format("--backdrop is {}, expected none, environment, #rrggbb or r,g,b", shown_name(text)),
+              near.empty() ? "#000000 is black, #ffffff white" : "did you mean " + near + "?");
         }
       },
-      "behind the cloth. none: grey paper in display pictures, alpha in an EXR. #rrggbb: that colour on the display, alpha "
+      "behind the cloth. none: grey paper in display pictures, alpha in an EXR. #rrggbb: that colour on the display, "
+      "alpha "
       "in an EXR. r,g,b: light of that colour, working space");
 }
 
@@ -82,7 +85,8 @@ void add_camera(Command& c, PictureFlags& f) {
       },
       fmt::format("size in pixels (default: {} {})", f.scene.width, f.scene.height));
   c.number("--azimuth", "DEG", k.azimuth_deg, -36000, 36000, "walks to the right around the object");
-  c.number("--elevation", "DEG", k.elevation_deg, -89, 89, fmt::format("above the horizon (default: {})", k.elevation_deg));
+  c.number("--elevation", "DEG", k.elevation_deg, -89, 89,
+           fmt::format("above the horizon (default: {})", k.elevation_deg));
   c.number("--fov", "DEG", k.fov_deg, 1, 150, fmt::format("of the longer side (default: {})", k.fov_deg));
   c.number("--zoom", "X", k.zoom, 0.01, 1000, "above 1 comes closer than the framing");
   c.custom(
@@ -92,8 +96,8 @@ void add_camera(Command& c, PictureFlags& f) {
         for (size_t i = 0; i < 4; ++i) v[i] = read_integer("--crop", w[i], 0, 32768);
         f.render.crop = {v[0], v[1], v[2], v[3]};
         if (v[2] <= v[0] || v[3] <= v[1])
-          throw InputError(fmt::format("--crop {} {} {} {} is empty, expected X0 below X1 and Y0 below Y1", v[0], v[1],
-                                       v[2], v[3]));
+          throw InputError(fmt::format("--crop {} {} {} {} is empty, expected X0 below X1 and Y0 below Y1", v[0],
+                                       v[1], v[2], v[3]));
       },
       "renders and writes this window of the picture only, in pixels from the top left");
 }
@@ -102,7 +106,8 @@ void add_quality(Command& c, PictureFlags& f) {
   StopRules& stop = f.render.stop;
   c.group("Quality (whichever is met first stops)");
   c.integer("-s,--spp", "N", stop.spp, 1, 1 << 30, "samples a pixel (default: 64 when no other rule is given)");
-  c.number("--error", "E", stop.error, 1e-6, 100, "relative error of the picture, such as 0.02; its upper bound counts");
+  c.number("--error", "E", stop.error, 1e-6, 100,
+           "relative error of the picture, such as 0.02; its upper bound counts");
   c.custom(
       "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
       "wall clock for rendering: 30, 30s, 2m, 1h30m");
@@ -131,8 +136,11 @@ void add_output(Command& c, PictureFlags& f) {
       "of display pictures; an EXR keeps the light as it is (default: auto, metered from the light)");
   c.text("--ocio", "FILE", f.ocio, "colour config, or built-in (default: $OCIO, else built-in)");
   c.text("--working", "NAME", f.working, "space to render in (default: the config's scene_linear role)");
-  c.text("--display", "NAME", f.display.display, "what the picture will be shown on (default: the config's first, built-in: sRGB; or Rec.1886 Rec.709)");
-  c.text("--view", "NAME", f.display.view, "how light becomes display colour (default: the display's first, built-in: ACES SDR; or Un-tone-mapped, Raw)");
+  c.text("--display", "NAME", f.display.display,
+         "what the picture will be shown on (default: the config's first, built-in: sRGB; or Rec.1886 Rec.709)");
+  c.text(
+      "--view", "NAME", f.display.view,
+      "how light becomes display colour (default: the display's first, built-in: ACES SDR; or Un-tone-mapped, Raw)");
   c.flag("--transparent", f.display.transparent, "alpha instead of a backdrop in PNG and TIFF");
 
   c.group("Output");
@@ -164,10 +172,12 @@ void settle_effects(const std::string& list, bool bounces_given, LightSettings& 
   for (const std::string& word : split(list, ',')) {
     if (word == "auto") continue;
     const bool on = word == "all" || word[0] == '+', off = word == "none" || word[0] == '-';
-    const std::string name = word == "all" || word == "none" ? "bounces" : word.substr(word.empty() || (!on && !off) ? 0 : 1);
+    const std::string name =
+        word == "all" || word == "none" ? "bounces" : word.substr(word.empty() || (!on && !off) ? 0 : 1);
     if (!on && !off)
-      throw InputError(fmt::format("--effects has {}, expected auto, all, none, or names with + or -", shown_name(word)),
-                       word == "bounces" ? "did you mean +bounces?" : suggestion(word, {"auto", "all", "none"}));
+      throw InputError(
+          fmt::format("--effects has {}, expected auto, all, none, or names with + or -", shown_name(word)),
+          word == "bounces" ? "did you mean +bounces?" : suggestion(word, {"auto", "all", "none"}));
     if (name != "bounces")
       throw InputError(fmt::format("there is no effect {}", shown_name(name)),
                        "this version can switch bounces; self-shadowing and gaps are always on");
@@ -239,15 +249,17 @@ Color read_hex_color(const std::string& what, const std::string& text) {
   unsigned value = 0;
   const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
   if (digits.size() != 6 || code != std::errc() || end != digits.data() + 6)
-    throw InputError(fmt::format("{} is {}, expected # and six hexadecimal digits, such as #c0b8a8", what, shown_name(text)));
+    throw InputError(
+        fmt::format("{} is {}, expected # and six hexadecimal digits, such as #c0b8a8", what, shown_name(text)));
   return {float(value >> 16) / 255.0f, float(value >> 8 & 255u) / 255.0f, float(value & 255u) / 255.0f};
 }
 
 std::string shell_line(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) {
-    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                               "0123456789_-+=.,/:@%") == std::string::npos;
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_-+=.,/:@%") == std::string::npos;
     std::string quoted;
     for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     line += (line.empty() ? "" : " ") + (plain ? word : "'" + quoted + "'");

@@ -14,7 +14,7 @@ struct PictureFlags {
   SceneSettings scene;
   RenderSettings render;
   DisplaySettings display;
-  std::optional<float> exposure_ev;    ///< empty: metered
+  std::optional<float> exposure_ev;  ///< empty: metered
   std::vector<std::string> outputs;
   std::string ocio, working, stats;
   std::string strategy = strategy_name(LightSettings().strategy), effects = "auto", layers = "all";
@@ -22,15 +22,15 @@ struct PictureFlags {
   bool strict = false, dry_run = false, quiet = false, verbose = false;
   int seed = 1;
 
-  std::vector<std::string> layer_list;                  ///< settled from `layers`
-  ProgressStyle progress = ProgressStyle::lines;        ///< settled from `progress_name`
+  std::vector<std::string> layer_list;            ///< settled from `layers`
+  ProgressStyle progress = ProgressStyle::lines;  ///< settled from `progress_name`
 };
 
 /// Names the flags in `command`, which writes into `flags` when it parses.
 void add_picture_flags(Command& command, PictureFlags& flags);
 
-/// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress, voice.
-/// `default_spp` is what is rendered when no stop rule was given.
+/// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress,
+/// voice. `default_spp` is what is rendered when no stop rule was given.
 void settle_picture_flags(const Command& command, PictureFlags& flags, int default_spp);
 
 /// Layers that `--aov` names. "all" and "none" too.

@@ -16,7 +16,8 @@ namespace sateen::app {
 namespace {
 std::string size_text(long long bytes) {
   if (bytes < 10'000) return fmt::format("{} bytes", bytes);
-  return bytes < 1'000'000 ? fmt::format("{:.0f} kB", double(bytes) / 1e3) : fmt::format("{:.1f} MB", double(bytes) / 1e6);
+  return bytes < 1'000'000 ? fmt::format("{:.0f} kB", double(bytes) / 1e3)
+                           : fmt::format("{:.1f} MB", double(bytes) / 1e6);
 }
 
 std::string count_text(long long n) {
@@ -28,14 +29,18 @@ std::string count_text(long long n) {
   return out;
 }
 
-std::string seconds_text(double s) { return s < 60 ? fmt::format("{:.1f} s", s) : clock_text(s); }
+std::string seconds_text(double s) {
+  return s < 60 ? fmt::format("{:.1f} s", s) : clock_text(s);
+}
 
 std::string error_text(const PictureError& e) {
   return e.known ? fmt::format("error E {:.4f} (95 %: {:.4f} to {:.4f})", e.error, e.low, e.high)
                  : std::string("error not known below 2 samples a pixel");
 }
 
-std::string samples_text(int n) { return n == 1 ? "1 sample a pixel" : fmt::format("{} samples a pixel", n); }
+std::string samples_text(int n) {
+  return n == 1 ? "1 sample a pixel" : fmt::format("{} samples a pixel", n);
+}
 
 std::string rules_text(const StopRules& stop) {
   std::vector<std::string> rules;
@@ -48,16 +53,19 @@ std::string rules_text(const StopRules& stop) {
 std::string reason_text(const StopRules& stop, const RenderResult& result) {
   switch (result.reason) {
     case StopReason::samples:
-      return stop.error > 0 ? fmt::format("stopped at {} samples a pixel before the error fell to {}", stop.spp, stop.error)
-                            : "all samples done";
-    case StopReason::error: return fmt::format("stopped at the asked error, {}", stop.error);
+      return stop.error > 0
+                 ? fmt::format("stopped at {} samples a pixel before the error fell to {}", stop.spp, stop.error)
+                 : "all samples done";
+    case StopReason::error:
+      return fmt::format("stopped at the asked error, {}", stop.error);
     case StopReason::time: {
       const std::string time = seconds_text(stop.seconds);
       if (stop.error > 0) return fmt::format("stopped by time ({}) before the error fell to {}", time, stop.error);
       if (stop.spp > 0) return fmt::format("stopped by time ({}) before {} samples a pixel", time, stop.spp);
       return fmt::format("stopped by time ({})", time);
     }
-    case StopReason::interrupted: break;
+    case StopReason::interrupted:
+      break;
   }
   return "stopped by a signal: the pictures hold the samples that were done";
 }
@@ -124,8 +132,9 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
   for (const std::string& warning : report.warnings) print_warning(warning);
   const SceneSettings& s = job.scene;
   print_note(fmt::format("{} on {} under {}, {} x {}", report.look.name, s.mesh, s.environment, s.width, s.height));
-  print_note(fmt::format("level {}, {} triangles; exposure {:+.2f} EV{}; {}", report.level, count_text(report.triangles),
-                         job.exposure_ev, flags.exposure_ev ? "" : " (metered)", rules_text(job.render.stop)));
+  print_note(fmt::format("level {}, {} triangles; exposure {:+.2f} EV{}; {}", report.level,
+                         count_text(report.triangles), job.exposure_ev, flags.exposure_ev ? "" : " (metered)",
+                         rules_text(job.render.stop)));
   print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
                            job.display.display, job.display.view));
   print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
@@ -150,7 +159,11 @@ int report_dry_run(const PictureFlags& flags, const PictureJob& job, const Scene
 void write_result(JsonWriter& w, const RenderResult& result, const std::vector<WrittenPicture>& written) {
   w.member("spp", result.samples).member("stopped_by", stop_reason_text(result.reason)).key("error");
   if (result.error.known)
-    w.open_object().member("value", result.error.error).member("low", result.error.low).member("high", result.error.high).close();
+    w.open_object()
+        .member("value", result.error.error)
+        .member("low", result.error.low)
+        .member("high", result.error.high)
+        .close();
   else
     w.null();
   w.member("seconds", result.seconds).member("cpu_seconds", result.cpu_seconds);
@@ -159,27 +172,35 @@ void write_result(JsonWriter& w, const RenderResult& result, const std::vector<W
   w.member("bounce", result.rays.bounce).close().member("non_finite", result.rays.non_finite);
   w.key("files").open_list();
   for (const WrittenPicture& file : written)
-    w.open_object().member("path", file.path.string()).member("bytes", file.bytes).member("layers", file.layers).close();
+    w.open_object()
+        .member("path", file.path.string())
+        .member("bytes", file.bytes)
+        .member("layers", file.layers)
+        .close();
   w.close();
 }
 
 void print_written(const PictureJob& job, const WrittenPicture& file) {
   const std::string content = file.layers > 0 ? fmt::format("{} layers, {}", file.layers, job.working_space)
                                               : fmt::format("{}, {}", job.display.display, job.display.view);
-  print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content, size_text(file.bytes)));
+  print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content,
+                         size_text(file.bytes)));
   if (file.clamped > 0)
-    print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504", file.path.string(), file.clamped));
+    print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504",
+                              file.path.string(), file.clamped));
 }
 
 void print_result_line(const PictureJob& job, const RenderResult& result) {
   print_note(fmt::format("{} in {}, {}; {}", samples_text(result.samples), seconds_text(result.seconds),
                          error_text(result.error), reason_text(job.render.stop, result)));
-  print_detail(fmt::format("first complete pass after {:.2f} s; {:.1f} CPU-s; rays: {} camera, {} shadow, {} bounce; peak memory {}",
-                           result.first_pass_seconds, result.cpu_seconds, count_text(result.rays.camera),
-                           count_text(result.rays.shadow), count_text(result.rays.bounce), size_text(peak_memory_bytes())));
+  print_detail(fmt::format(
+      "first complete pass after {:.2f} s; {:.1f} CPU-s; rays: {} camera, {} shadow, {} bounce; peak memory {}",
+      result.first_pass_seconds, result.cpu_seconds, count_text(result.rays.camera), count_text(result.rays.shadow),
+      count_text(result.rays.bounce), size_text(peak_memory_bytes())));
   if (result.rays.non_finite > 0)
-    print_warning(fmt::format("{} samples were not finite and were left out: please report this with its command line",
-                              result.rays.non_finite));
+    print_warning(
+        fmt::format("{} samples were not finite and were left out: please report this with its command line",
+                    result.rays.non_finite));
 }
 
 int picture_code(const PictureFlags& flags, const RenderResult& result) {

@@ -28,7 +28,8 @@ void describe(Command& c) {
 
 int run_render(const std::vector<std::string>& words) {
   PictureFlags flags;
-  Command command("render", "Renders one picture. Without any flag: the default satin, to sateen.png and sateen.exr here.",
+  Command command("render",
+                  "Renders one picture. Without any flag: the default satin, to sateen.png and sateen.exr here.",
                   "[--look NAME] [--mesh FILE] [--env MAP] [-o FILE]... [flags]");
   add_picture_flags(command, flags);
   describe(command);
@@ -51,12 +52,13 @@ int run_render(const std::vector<std::string>& words) {
   print_scene(flags, job, report);
   if (flags.dry_run) return report_dry_run(flags, job, report);
 
-  const bool any_exr = std::any_of(flags.outputs.begin(), flags.outputs.end(), [](const auto& o) { return is_exr(o); });
+  const bool any_exr =
+      std::any_of(flags.outputs.begin(), flags.outputs.end(), [](const auto& o) { return is_exr(o); });
   Film film(flags.scene.width, flags.scene.height, any_exr && !job.layers.empty());
   Progress progress(flags.progress, progress_writer(flags.progress));
   const StopOnSignal stop_on_signal;
-  const RenderResult result =
-      render(scene, job.render, film, [&](const RenderState& state) { progress.update(state); }, &interrupted);
+  const RenderResult result = render(
+      scene, job.render, film, [&](const RenderState& state) { progress.update(state); }, &interrupted);
 
   PictureContent content;
   content.film = &film;

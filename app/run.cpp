@@ -80,13 +80,15 @@ int run_group(const std::string& prefix, const std::string& summary, const std::
   return done;
 }
 
-int run_named(const std::vector<Subcommand>& table, const std::string& prefix, const std::vector<std::string>& words) {
+int run_named(const std::vector<Subcommand>& table, const std::string& prefix,
+              const std::vector<std::string>& words) {
   std::vector<std::string> names;
   for (const Subcommand& each : table) names.push_back(each.name);
   if (words.empty()) throw InputError(fmt::format("{} wants a command", prefix), suggestion("", names));
   for (const Subcommand& each : table)
     if (each.name == words[0]) return each.run({words.begin() + 1, words.end()});
-  throw InputError(fmt::format("there is no command {} {}", prefix, shown_name(words[0])), suggestion(words[0], names));
+  throw InputError(fmt::format("there is no command {} {}", prefix, shown_name(words[0])),
+                   suggestion(words[0], names));
 }
 
 int run(int argc, char** argv) {

@@ -1,7 +1,7 @@
 #include "signals.h"
 
-#include <csignal>
 #include <unistd.h>
+#include <csignal>
 
 namespace sateen::app {
 
@@ -32,9 +32,15 @@ void install_signals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-StopOnSignal::StopOnSignal() { ++guards; }
-StopOnSignal::~StopOnSignal() { --guards; }
+StopOnSignal::StopOnSignal() {
+  ++guards;
+}
+StopOnSignal::~StopOnSignal() {
+  --guards;
+}
 
-int signal_received() { return received.load(); }
+int signal_received() {
+  return received.load();
+}
 
 }  // namespace sateen::app

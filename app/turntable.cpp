@@ -36,7 +36,8 @@ struct Frame {
 
 void describe(Command& c, TurntableFlags& f) {
   c.group("Turntable");
-  c.choice("--turn", f.turn, turn_names(), "what turns: the object and with it its folds, the camera, or the light (default: object)");
+  c.choice("--turn", f.turn, turn_names(),
+           "what turns: the object and with it its folds, the camera, or the light (default: object)");
   c.integer("-n,--count", "N", f.count, 1, 100000, "frames of the whole orbit (default: 36)");
   c.number("--degrees", "DEG", f.degrees, -36000, 36000, "of the whole orbit (default: 360)");
   c.text("--frames", "LIST", f.frames, "only these: 1-100, 1-100x2, 1..10, 1,5,9 (default: 1 to N)");
@@ -44,10 +45,14 @@ void describe(Command& c, TurntableFlags& f) {
   c.text("--sheet", "FILE", f.sheet, "a sheet of all these frames, small");
   c.flag("--labels", f.labels, "frame and angle under each picture of the sheet (default)");
   add_picture_flags(c, f.picture);
-  c.paragraph("Frame 1 stands at 0 degrees. Names take a place for the number: # (4 digits), ####, %04d or $F4. A frame is "
-              "skipped when its files are whole and were made by the same job; anything that changes the pixels makes another job.");
-  c.example("sateen turntable -l emerald_satin -s 32 -o out/turn.####.png --sheet out/sheet.png", "36 frames and a sheet of them");
-  c.example("sateen turntable --turn light -n 120 --frames 1-120x4 -o light.%04d.exr", "every fourth frame of a light that turns");
+  c.paragraph(
+      "Frame 1 stands at 0 degrees. Names take a place for the number: # (4 digits), ####, %04d or $F4. A frame is "
+      "skipped when its files are whole and were made by the same job; anything that changes the pixels makes "
+      "another job.");
+  c.example("sateen turntable -l emerald_satin -s 32 -o out/turn.####.png --sheet out/sheet.png",
+            "36 frames and a sheet of them");
+  c.example("sateen turntable --turn light -n 120 --frames 1-120x4 -o light.%04d.exr",
+            "every fourth frame of a light that turns");
 }
 
 void check_names(TurntableFlags& f, const std::vector<int>& frames) {
@@ -55,15 +60,18 @@ void check_names(TurntableFlags& f, const std::vector<int>& frames) {
   std::set<std::string> names;
   for (const std::string& output : f.picture.outputs) {
     if (frames.size() > 1 && !has_frame_place(output))
-      throw InputError(fmt::format("--output {} has no place for a frame's number, and there are {} frames", output, frames.size()),
+      throw InputError(fmt::format("--output {} has no place for a frame's number, and there are {} frames", output,
+                                   frames.size()),
                        "write it such as turn.####.png");
     check_picture_path(frame_name(output, frames[0]), !f.picture.dry_run);
-    if (!names.insert(frame_name(output, frames[0])).second) throw InputError(fmt::format("--output {} is given twice", output));
+    if (!names.insert(frame_name(output, frames[0])).second)
+      throw InputError(fmt::format("--output {} is given twice", output));
   }
   if (f.sheet.empty()) return;
   check_picture_path(f.sheet, !f.picture.dry_run);
   if (is_exr(f.sheet)) throw InputError("a sheet is for looking at and is not written as EXR", "use .png or .jpg");
-  if (has_frame_place(f.sheet)) throw InputError(fmt::format("--sheet {} has a place for a number, but is one picture", f.sheet));
+  if (has_frame_place(f.sheet))
+    throw InputError(fmt::format("--sheet {} has a place for a number, but is one picture", f.sheet));
 }
 
 // The display picture of a frame that is there already.
@@ -78,19 +86,22 @@ Image read_small(const Frame& frame, const ColorManager& colors, int side) {
     const auto found = std::find(info.channel_names.begin(), info.channel_names.end(), names[c]);
     if (found == info.channel_names.end()) continue;
     const size_t from = size_t(found - info.channel_names.begin());
-    for (size_t i = 0; i < beauty.pixels.size() / 4; ++i) beauty.pixels[4 * i + c] = all.pixels[i * size_t(all.channels) + from];
+    for (size_t i = 0; i < beauty.pixels.size() / 4; ++i)
+      beauty.pixels[4 * i + c] = all.pixels[i * size_t(all.channels) + from];
   }
   return shrink_image(develop_display(beauty, colors, frame.job.display, frame.job.exposure_ev), side);
 }
 
 class Turntable {
  public:
-  Turntable(TurntableFlags& flags, const std::string& words) : flags_(flags), colors_(flags.picture.ocio, flags.picture.working) {
+  Turntable(TurntableFlags& flags, const std::string& words)
+      : flags_(flags), colors_(flags.picture.ocio, flags.picture.working) {
     PictureFlags& p = flags_.picture;
     p.display = settle_display(p.display, colors_);
     scene_ = assemble_scene(p.scene, colors_, report_);
     const Turn turn = Turn(std::find(turn_names().begin(), turn_names().end(), flags_.turn) - turn_names().begin());
-    report_.metered_ev = turntable_exposure(scene_.environment, turn, p.scene.camera.azimuth_deg, p.scene.environment_ev, flags_.degrees);
+    report_.metered_ev = turntable_exposure(scene_.environment, turn, p.scene.camera.azimuth_deg,
+                                            p.scene.environment_ev, flags_.degrees);
     start_ = start_turntable(scene_, p.scene.camera, turn);
     job_ = make_job(p, report_, scene_, colors_, words);
   }
@@ -121,9 +132,13 @@ class Turntable {
     const auto& files = frame.files;
     const bool any_exr = std::any_of(files.begin(), files.end(), [](const auto& o) { return is_exr(o); });
     Film film(job_.scene.width, job_.scene.height, any_exr && !job_.layers.empty());
-    const RenderResult result =
-        render(scene_, frame.job.render, film, [&](const RenderState& state) { progress.update(state); }, &interrupted);
-    PictureContent content{&film, frame.job.render.crop, frame.job.layers, frame.job.display, frame.job.exposure_ev,
+    const RenderResult result = render(
+        scene_, frame.job.render, film, [&](const RenderState& state) { progress.update(state); }, &interrupted);
+    PictureContent content{&film,
+                           frame.job.render.crop,
+                           frame.job.layers,
+                           frame.job.display,
+                           frame.job.exposure_ev,
                            picture_attributes(frame.job, report_, result)};
     for (const std::string& file : files) written.push_back(write_picture(file, content, colors_));
     return result;
@@ -147,7 +162,8 @@ void write_sheet(const TurntableFlags& flags, const Turntable& turntable, const 
   const int side = std::clamp(int(2400 / std::ceil(std::sqrt(double(frames.size()) * 1.5))), 48, 320);
   std::vector<SheetPicture> pictures;
   for (const Frame& frame : frames)
-    pictures.push_back({read_small(frame, turntable.colors(), side), fmt::format("{}: {:.4g} deg", frame.number, frame.angle)});
+    pictures.push_back(
+        {read_small(frame, turntable.colors(), side), fmt::format("{}: {:.4g} deg", frame.number, frame.angle)});
   write_display_image(flags.sheet, contact_sheet(pictures, flags.labels));
   print_note("wrote " + flags.sheet);
 }
@@ -155,13 +171,15 @@ void write_sheet(const TurntableFlags& flags, const Turntable& turntable, const 
 
 int run_turntable(const std::vector<std::string>& words) {
   TurntableFlags flags;
-  Command command("turntable", "Renders an orbit: numbered frames of a turning object, camera or light, and a sheet of them.",
+  Command command("turntable",
+                  "Renders an orbit: numbered frames of a turning object, camera or light, and a sheet of them.",
                   "[--turn object|camera|light] [-n N] [--look NAME] [--mesh FILE] -o NAME.####.png [flags]");
   describe(command, flags);
   if (!command.parse(words)) return done;
   constexpr int default_spp = 64;
   settle_picture_flags(command, flags.picture, default_spp);
-  const std::vector<int> numbers = parse_frames(flags.frames.empty() ? fmt::format("1-{}", flags.count) : flags.frames);
+  const std::vector<int> numbers =
+      parse_frames(flags.frames.empty() ? fmt::format("1-{}", flags.count) : flags.frames);
   check_names(flags, numbers);
 
   Turntable turntable(flags, "turntable " + shell_line(words));
@@ -171,19 +189,27 @@ int run_turntable(const std::vector<std::string>& words) {
   std::vector<bool> finished;
   for (const Frame& frame : frames) finished.push_back(turntable.is_finished(frame));
   const int open = int(std::count(finished.begin(), finished.end(), false));
-  print_note(fmt::format("{} frame{}{}", frames.size(), frames.size() == 1 ? "" : "s",
-                         open < int(frames.size()) ? fmt::format(", {} of them finished already", int(frames.size()) - open) : ""));
+  print_note(fmt::format(
+      "{} frame{}{}", frames.size(), frames.size() == 1 ? "" : "s",
+      open < int(frames.size()) ? fmt::format(", {} of them finished already", int(frames.size()) - open) : ""));
   JsonWriter w;
   w.open_object().member("dry_run", picture.dry_run);
   write_job(w, picture, turntable.job(), turntable.report());
-  w.member("turn", flags.turn).member("count", flags.count).member("degrees", flags.degrees).key("frames").open_list();
+  w.member("turn", flags.turn)
+      .member("count", flags.count)
+      .member("degrees", flags.degrees)
+      .key("frames")
+      .open_list();
 
   int code = done;
   Progress progress(picture.progress, progress_writer(picture.progress), std::max(open, 1));
   const StopOnSignal stop_on_signal;
   for (size_t i = 0; i < frames.size() && !interrupted; ++i) {
     const Frame& frame = frames[i];
-    w.open_object().member("frame", frame.number).member("angle_deg", frame.angle).member("skipped", bool(finished[i]));
+    w.open_object()
+        .member("frame", frame.number)
+        .member("angle_deg", frame.angle)
+        .member("skipped", bool(finished[i]));
     w.member("job", job_hash(frame.job, turntable.report()));
     if (!finished[i] && !picture.dry_run) {
       std::vector<WrittenPicture> written;
@@ -196,7 +222,8 @@ int run_turntable(const std::vector<std::string>& words) {
       code = std::max(code, picture_code(picture, result));
       if (result.reason != StopReason::interrupted) progress.finish_part();
     } else if (picture.dry_run && !finished[i]) {
-      for (const std::string& file : frame.files) print_note(fmt::format("would write {}  at {:.4g} degrees", file, frame.angle));
+      for (const std::string& file : frame.files)
+        print_note(fmt::format("would write {}  at {:.4g} degrees", file, frame.angle));
     }
     w.close();
   }

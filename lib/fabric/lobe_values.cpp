@@ -16,19 +16,22 @@ namespace {
 using Kind = JsonValue::Kind;
 
 // Takes member `key` of a row as a unit direction; complains where it is none.
-Vec3 read_direction(const JsonDocument& document, const JsonValue& row, const char* key, std::vector<Diagnostic>& faults) {
+Vec3 read_direction(const JsonDocument& document, const JsonValue& row, const char* key,
+                    std::vector<Diagnostic>& faults) {
   const auto fault = [&](const JsonPlace& place, const std::string& message, const std::string& help = {}) {
     faults.push_back(diagnostic_at(document, place, message, help));
     return Vec3(0, 0, 1);
   };
   const JsonValue* value = row.find(key);
-  if (!value) return fault(row.place, fmt::format("the row has no {}, expected {{\"wi\": [x, y, z], \"wo\": [x, y, z]}}", key));
+  if (!value)
+    return fault(row.place, fmt::format("the row has no {}, expected {{\"wi\": [x, y, z], \"wo\": [x, y, z]}}", key));
   if (value->kind != Kind::list || value->items.size() != 3)
     return fault(value->place, fmt::format("{} is not a list of three numbers", key));
   double v[3];
   for (size_t i = 0; i < 3; ++i) {
     const JsonValue& item = value->items[i];
-    if (item.kind != Kind::number) return fault(item.place, fmt::format("{} holds something else than a number", key));
+    if (item.kind != Kind::number)
+      return fault(item.place, fmt::format("{} holds something else than a number", key));
     v[i] = item.number;
   }
   const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);

@@ -12,8 +12,8 @@ struct LobePair {
   Vec3 wi, wo;
 };
 
-/// Reads {"rows": [{"wi": [x, y, z], "wo": [x, y, z]}, ...]}, extra keys ignored. InputError with file:line:column of every
-/// row that is not a pair of unit directions (within 1e-3; they are made exact).
+/// Reads {"rows": [{"wi": [x, y, z], "wo": [x, y, z]}, ...]}, extra keys ignored. InputError with file:line:column of
+/// every row that is not a pair of unit directions (within 1e-3; they are made exact).
 std::vector<LobePair> read_lobe_pairs(const std::filesystem::path& path);
 std::vector<LobePair> parse_lobe_pairs(const std::string& text, const std::string& file);
 
@@ -24,7 +24,7 @@ std::vector<BsdfValue> lobe_values(const Fabric& fabric, FabricSampler sampler, 
 /// {"rows": [{"f": [r, g, b], "pdf": p}, ...]}, one row a line, nine digits: every float exactly.
 std::string lobe_values_text(const std::vector<BsdfValue>& values);
 
-const std::vector<std::string>& sampler_names();                 ///< "uniform", "talk", "table"
-FabricSampler sampler_from_name(const std::string& name);        ///< InputError with the nearest name
+const std::vector<std::string>& sampler_names();           ///< "uniform", "talk", "table"
+FabricSampler sampler_from_name(const std::string& name);  ///< InputError with the nearest name
 
 }  // namespace sateen

@@ -16,8 +16,8 @@ Image shrink_image(const Image& image, int side) {
   Image out(width, height, image.channels);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const int x0 = int((long long)(x) * image.width / width), x1 = int((long long)(x + 1) * image.width / width);
-      const int y0 = int((long long)(y) * image.height / height), y1 = int((long long)(y + 1) * image.height / height);
+      const int x0 = int((long long)(x)*image.width / width), x1 = int((long long)(x + 1) * image.width / width);
+      const int y0 = int((long long)(y)*image.height / height), y1 = int((long long)(y + 1) * image.height / height);
       for (int c = 0; c < image.channels; ++c) {
         double sum = 0;
         for (int j = y0; j < y1; ++j)
@@ -48,8 +48,8 @@ Image contact_sheet(const std::vector<SheetPicture>& pictures, bool labelled) {
     const Image& image = pictures[i].image;
     sheet.shapes.push_back(FigurePicture{Vec2(x + float((cell_width - image.width) / 2), y), image, 1});
     if (labelled && shown_length(pictures[i].label) * font_advance <= cell_width + gap)
-      sheet.shapes.push_back(FigureText{Vec2(x + float(cell_width) / 2, y + float(cell_height) + 6), pictures[i].label,
-                                        Color(0.8f, 0.8f, 0.8f), 1, FigureText::Anchor::middle});
+      sheet.shapes.push_back(FigureText{Vec2(x + float(cell_width) / 2, y + float(cell_height) + 6),
+                                        pictures[i].label, Color(0.8f, 0.8f, 0.8f), 1, FigureText::Anchor::middle});
   }
   return draw_figure(sheet);
 }

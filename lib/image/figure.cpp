@@ -41,8 +41,10 @@ void draw(Image& image, const FigureLine& line) {
   const size_t count = line.points.size();
   for (size_t i = 0; i + 1 < count + (line.closed ? 1 : 0) || (count == 1 && i == 0); ++i) {
     const Vec2 a = line.points[i], b = line.points[(i + 1) % count];
-    for (int y = std::max(y0, int(std::min(a.y, b.y) - reach)); y < std::min(y1, int(std::max(a.y, b.y) + reach) + 1); ++y)
-      for (int x = std::max(x0, int(std::min(a.x, b.x) - reach)); x < std::min(x1, int(std::max(a.x, b.x) + reach) + 1); ++x) {
+    for (int y = std::max(y0, int(std::min(a.y, b.y) - reach)); y < std::min(y1, int(std::max(a.y, b.y) + reach) + 1);
+         ++y)
+      for (int x = std::max(x0, int(std::min(a.x, b.x) - reach));
+           x < std::min(x1, int(std::max(a.x, b.x) + reach) + 1); ++x) {
         const float d = distance_to_segment(Vec2(float(x) + 0.5f, float(y) + 0.5f), a, b);
         float& c = cover[size_t(y - y0) * size_t(x1 - x0) + size_t(x - x0)];
         c = std::max(c, std::clamp(line.width / 2 + 0.5f - d, 0.0f, std::min(line.width, 1.0f)));
@@ -55,12 +57,15 @@ void draw(Image& image, const FigureLine& line) {
 
 void draw(Image& image, const FigureBox& box) {
   for (int y = std::max(int(std::lround(box.from.y)), 0); y < std::min(int(std::lround(box.to.y)), image.height); ++y)
-    for (int x = std::max(int(std::lround(box.from.x)), 0); x < std::min(int(std::lround(box.to.x)), image.width); ++x)
+    for (int x = std::max(int(std::lround(box.from.x)), 0); x < std::min(int(std::lround(box.to.x)), image.width);
+         ++x)
       mix(image, x, y, box.color, 1);
 }
 
 float left_of(const FigureText& text, float width) {
-  return text.at.x - (text.anchor == FigureText::Anchor::left ? 0 : text.anchor == FigureText::Anchor::middle ? width / 2 : width);
+  return text.at.x - (text.anchor == FigureText::Anchor::left     ? 0
+                      : text.anchor == FigureText::Anchor::middle ? width / 2
+                                                                  : width);
 }
 
 void draw(Image& image, const FigureText& text) {
@@ -94,8 +99,9 @@ std::string hex(const Color& c) {
 std::string svg(const FigureLine& line) {
   std::string points;
   for (const Vec2& p : line.points) points += fmt::format("{:.2f},{:.2f} ", p.x, p.y);
-  return fmt::format("<{} points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"/>\n",
-                     line.closed ? "polygon" : "polyline", points, hex(line.color), line.width);
+  return fmt::format(
+      "<{} points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"/>\n",
+      line.closed ? "polygon" : "polyline", points, hex(line.color), line.width);
 }
 
 std::string svg(const FigureBox& box) {
@@ -109,9 +115,13 @@ std::string svg(const FigureText& text) {
     if (static_cast<unsigned char>(c) < 0x20) continue;
     escaped += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
   }
-  const char* anchor = text.anchor == FigureText::Anchor::left ? "start" : text.anchor == FigureText::Anchor::middle ? "middle" : "end";
-  return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n",
-                     text.at.x, text.at.y + 7 * float(text.dots), 5 + 5 * text.dots, anchor, hex(text.color), escaped);
+  const char* anchor = text.anchor == FigureText::Anchor::left     ? "start"
+                       : text.anchor == FigureText::Anchor::middle ? "middle"
+                                                                   : "end";
+  return fmt::format(
+      "<text x=\"{:.2f}\" y=\"{:.2f}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{}\" "
+      "fill=\"{}\">{}</text>\n",
+      text.at.x, text.at.y + 7 * float(text.dots), 5 + 5 * text.dots, anchor, hex(text.color), escaped);
 }
 
 // Rows as runs of equal colour, one path a colour: plain SVG without an embedded file.
@@ -128,8 +138,9 @@ std::string svg(const FigurePicture& picture) {
       for (end = x + 1; end < from.width && color_at(end) == color;) ++end;
       if (!color.empty()) runs[color] += fmt::format("M{} {}.5h{}", x, y, end - x);
     }
-  std::string text = fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({})\" shape-rendering=\"crispEdges\">\n",
-                                 picture.at.x, picture.at.y, picture.scale);
+  std::string text =
+      fmt::format("<g transform=\"translate({:.2f} {:.2f}) scale({})\" shape-rendering=\"crispEdges\">\n",
+                  picture.at.x, picture.at.y, picture.scale);
   for (const auto& [color, path] : runs) text += fmt::format("<path stroke=\"{}\" d=\"{}\"/>\n", color, path);
   return text + "</g>\n";
 }
@@ -143,9 +154,10 @@ Image draw_figure(const Figure& figure) {
 }
 
 std::string figure_svg(const Figure& figure) {
-  std::string text = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
-                                 "<rect width=\"{0}\" height=\"{1}\" fill=\"{2}\"/>\n",
-                                 figure.width, figure.height, hex(figure.background));
+  std::string text = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
+      "<rect width=\"{0}\" height=\"{1}\" fill=\"{2}\"/>\n",
+      figure.width, figure.height, hex(figure.background));
   for (const FigureShape& shape : figure.shapes) text += std::visit([](const auto& s) { return svg(s); }, shape);
   return text + "</svg>\n";
 }

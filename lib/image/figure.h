@@ -24,16 +24,16 @@ struct FigureBox {
 };
 struct FigureText {
   enum class Anchor { left, middle, right };
-  Vec2 at;           ///< top of the letters
+  Vec2 at;  ///< top of the letters
   std::string text;
   Color color{0, 0, 0};
-  int dots = 1;      ///< pixels a dot of the font: letters are 7 dots high
+  int dots = 1;  ///< pixels a dot of the font: letters are 7 dots high
   Anchor anchor = Anchor::left;
 };
 struct FigurePicture {
   Vec2 at;
-  Image image;       ///< 3 channels, or 4: alpha 0 is left out
-  int scale = 1;     ///< pixels a pixel
+  Image image;    ///< 3 channels, or 4: alpha 0 is left out
+  int scale = 1;  ///< pixels a pixel
 };
 using FigureShape = std::variant<FigureLine, FigureBox, FigureText, FigurePicture>;
 
@@ -43,7 +43,7 @@ struct Figure {
   std::vector<FigureShape> shapes;
 };
 
-Image draw_figure(const Figure& figure);        ///< 3 channels, smooth lines
+Image draw_figure(const Figure& figure);  ///< 3 channels, smooth lines
 std::string figure_svg(const Figure& figure);
 
 /// By extension: svg, or a display format of write_display_image.

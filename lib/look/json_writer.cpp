@@ -14,7 +14,10 @@ size_t sequence_length(std::string_view text) {
   const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned lead = byte(0);
   if (lead < 0x80) return 1;
-  const size_t length = lead >= 0xc2 && lead < 0xe0 ? 2 : lead >= 0xe0 && lead < 0xf0 ? 3 : lead >= 0xf0 && lead < 0xf5 ? 4 : 0;
+  const size_t length = lead >= 0xc2 && lead < 0xe0   ? 2
+                        : lead >= 0xe0 && lead < 0xf0 ? 3
+                        : lead >= 0xf0 && lead < 0xf5 ? 4
+                                                      : 0;
   for (size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
   if ((lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xed && byte(1) >= 0xa0) || (lead == 0xf0 && byte(1) < 0x90) ||
@@ -78,9 +81,17 @@ JsonWriter& JsonWriter::key(std::string_view name) {
   return *this;
 }
 
-JsonWriter& JsonWriter::value(std::string_view text) { return put(json_quote(valid_utf8(text))); }
-JsonWriter& JsonWriter::value(bool b) { return put(b ? "true" : "false"); }
-JsonWriter& JsonWriter::value(double number) { return std::isfinite(number) ? put(fmt::format("{}", number)) : null(); }
-JsonWriter& JsonWriter::value(float number) { return std::isfinite(number) ? put(fmt::format("{}", number)) : null(); }
+JsonWriter& JsonWriter::value(std::string_view text) {
+  return put(json_quote(valid_utf8(text)));
+}
+JsonWriter& JsonWriter::value(bool b) {
+  return put(b ? "true" : "false");
+}
+JsonWriter& JsonWriter::value(double number) {
+  return std::isfinite(number) ? put(fmt::format("{}", number)) : null();
+}
+JsonWriter& JsonWriter::value(float number) {
+  return std::isfinite(number) ? put(fmt::format("{}", number)) : null();
+}
 
 }  // namespace sateen

@@ -24,10 +24,7 @@ class JsonWriter {
   JsonWriter& value(double number);
   JsonWriter& value(float number);
   template <std::integral Whole>
-    requires(!std::same_as<Whole, bool>)
-  JsonWriter& value(Whole number) {
-    return put(std::to_string(number));
-  }
+  requires(!std::same_as<Whole, bool>) JsonWriter& value(Whole number) { return put(std::to_string(number)); }
   JsonWriter& null() { return put("null"); }
   /// key and value in one.
   template <class Value>

@@ -18,7 +18,8 @@ constexpr int largest_frame = 999'999;
 constexpr size_t most_frames = 100'000;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw InputError(fmt::format("frames {}: {}", shown_name(text), why), "expected such as 1-100, 1-100x2, 1..10 or 1,5,9");
+  throw InputError(fmt::format("frames {}: {}", shown_name(text), why),
+                   "expected such as 1-100, 1-100x2, 1..10 or 1,5,9");
 }
 
 // Takes the number at the front of `text`.
@@ -40,7 +41,8 @@ struct Place {
 // Digits after the sign of %04d or $F4; at most two of them.
 int take_digits(std::string_view text, size_t& at) {
   int digits = 0, count = 0;
-  while (at < text.size() && text[at] >= '0' && text[at] <= '9' && count < 2) digits = digits * 10 + (text[at++] - '0'), ++count;
+  while (at < text.size() && text[at] >= '0' && text[at] <= '9' && count < 2)
+    digits = digits * 10 + (text[at++] - '0'), ++count;
   return digits;
 }
 
@@ -93,13 +95,16 @@ std::vector<int> parse_frames(const std::string& text) {
   }
 }
 
-bool has_frame_place(const std::string& pattern) { return !places_in(pattern).empty(); }
+bool has_frame_place(const std::string& pattern) {
+  return !places_in(pattern).empty();
+}
 
 std::string frame_name(const std::string& pattern, int frame) {
   const std::vector<Place> places = places_in(pattern);
   if (places.empty()) return pattern;
   if (places.size() > 1)
-    throw InputError(fmt::format("{} has {} places for the frame's number, expected one", shown_name(pattern), places.size()));
+    throw InputError(
+        fmt::format("{} has {} places for the frame's number, expected one", shown_name(pattern), places.size()));
   const Place& p = places[0];
   return pattern.substr(0, p.begin) + fmt::format("{:0{}}", frame, p.digits) + pattern.substr(p.begin + p.length);
 }

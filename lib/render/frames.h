@@ -4,8 +4,8 @@
 
 namespace sateen {
 
-/// Frames of "1-100", "1-100x2", "1..10", "1,5,9" and mixtures, in the order given, each once. InputError for anything else,
-/// a range that runs backwards, numbers above 999,999 or more than 100,000 frames.
+/// Frames of "1-100", "1-100x2", "1..10", "1,5,9" and mixtures, in the order given, each once. InputError for
+/// anything else, a range that runs backwards, numbers above 999,999 or more than 100,000 frames.
 std::vector<int> parse_frames(const std::string& text);
 
 /// Whether the file's name has a place for the frame's number: # (4 digits), ### (as many), %d, %04d, $F, $F4.

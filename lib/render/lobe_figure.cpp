@@ -11,7 +11,8 @@ namespace sateen {
 namespace {
 const Color ink(0.13f, 0.13f, 0.15f), faint(0.80f, 0.80f, 0.82f), soft(0.45f, 0.45f, 0.48f);
 // Four colours that people with any kind of colour vision tell apart, and that differ in lightness too.
-const Color curve_colors[4] = {{0.0f, 0.30f, 0.58f}, {0.85f, 0.42f, 0.0f}, {0.10f, 0.62f, 0.50f}, {0.72f, 0.28f, 0.60f}};
+const Color curve_colors[4] = {
+    {0.0f, 0.30f, 0.58f}, {0.85f, 0.42f, 0.0f}, {0.10f, 0.62f, 0.50f}, {0.72f, 0.28f, 0.60f}};
 constexpr float curve_views[4] = {0, 30, 60, 80};
 constexpr int decades = 4;
 
@@ -52,7 +53,8 @@ void add_polar(Figure& f, const Fabric& fabric, bool weft, const Vec2& center, f
     FigureLine arc{{}, faint, 1, false};
     for (int a = -90; a <= 90; a += 3) arc.points.push_back(place(float(a), radius_of(ring)));
     f.shapes.push_back(arc);
-    add_text(f, center.x + radius_of(ring), center.y + 6, fmt::format("{:.3g}", ring), soft, 1, FigureText::Anchor::middle);
+    add_text(f, center.x + radius_of(ring), center.y + 6, fmt::format("{:.3g}", ring), soft, 1,
+             FigureText::Anchor::middle);
   }
   for (int a = -90; a <= 90; a += 30) {
     f.shapes.push_back(FigureLine{{center, place(float(a), radius)}, faint, 1, false});
@@ -63,12 +65,14 @@ void add_polar(Figure& f, const Fabric& fabric, bool weft, const Vec2& center, f
     const auto view = viewed(fabric, PlaneDirection{curve_views[i], weft}.direction());
     FigureLine curve{{}, curve_colors[i], 1.8f, false};
     for (float a = -90; a <= 90; a += 0.25f)
-      curve.points.push_back(place(a, radius_of(mean_component(evaluate(*view, PlaneDirection{a, weft}.direction())))));
+      curve.points.push_back(
+          place(a, radius_of(mean_component(evaluate(*view, PlaneDirection{a, weft}.direction())))));
     f.shapes.push_back(curve);
     const Vec2 mark = place(curve_views[i], radius + 3);
     f.shapes.push_back(FigureBox{mark - Vec2(3, 3), mark + Vec2(3, 3), curve_colors[i]});
   }
-  add_text(f, center.x, center.y + 24, weft ? "plane of the weft" : "plane of the warp", ink, 2, FigureText::Anchor::middle);
+  add_text(f, center.x, center.y + 24, weft ? "plane of the weft" : "plane of the warp", ink, 2,
+           FigureText::Anchor::middle);
 }
 
 float largest_in_plane(const Fabric& fabric, bool weft) {
@@ -121,7 +125,8 @@ void add_hemisphere(Figure& f, const Fabric& fabric, const PlaneDirection& from,
     f.shapes.push_back(FigureLine{{eye - arm, eye + arm}, curve_colors[0], 1.4f, false});
   }
   add_text(f, middle.x, at.y + float(side) + 8, "view " + from.text(), ink, 2, FigureText::Anchor::middle);
-  add_text(f, middle.x, at.y + float(side) + 28, fmt::format("peak {:.3g} /sr", largest), soft, 1, FigureText::Anchor::middle);
+  add_text(f, middle.x, at.y + float(side) + 28, fmt::format("peak {:.3g} /sr", largest), soft, 1,
+           FigureText::Anchor::middle);
 }
 
 void add_legend(Figure& f, float x, float y) {
@@ -135,11 +140,13 @@ void add_legend(Figure& f, float x, float y) {
 
 void add_scale(Figure& f, float x, float y, float width) {
   for (int i = 0; i < int(width); ++i)
-    f.shapes.push_back(FigureBox{Vec2(x + float(i), y), Vec2(x + float(i) + 1, y + 10), ramp((float(i) + 0.5f) / width)});
+    f.shapes.push_back(
+        FigureBox{Vec2(x + float(i), y), Vec2(x + float(i) + 1, y + 10), ramp((float(i) + 0.5f) / width)});
   for (int d = 0; d <= decades; ++d)
-    add_text(f, x + width * float(d) / decades, y + 14, d == decades ? "peak" : fmt::format("1e-{}", decades - d), soft, 1,
-             FigureText::Anchor::middle);
-  add_text(f, x + width + 34, y + 2, "F over the hemisphere seen from above: warp to the right, weft up; the cross is the view", soft);
+    add_text(f, x + width * float(d) / decades, y + 14, d == decades ? "peak" : fmt::format("1e-{}", decades - d),
+             soft, 1, FigureText::Anchor::middle);
+  add_text(f, x + width + 34, y + 2,
+           "F over the hemisphere seen from above: warp to the right, weft up; the cross is the view", soft);
 }
 }  // namespace
 
@@ -153,8 +160,9 @@ std::string PlaneDirection::text() const {
 }
 
 const std::vector<PlaneDirection>& table_views() {
-  static const std::vector<PlaneDirection> views{{0, false}, {30, false}, {45, false}, {60, false}, {75, false}, {85, false},
-                                                 {30, true}, {45, true},  {60, true},  {75, true},  {85, true}};
+  static const std::vector<PlaneDirection> views{{0, false},  {30, false}, {45, false}, {60, false},
+                                                 {75, false}, {85, false}, {30, true},  {45, true},
+                                                 {60, true},  {75, true},  {85, true}};
   return views;
 }
 
@@ -165,7 +173,9 @@ LobeSummary summarise_lobe(const Fabric& fabric, const PlaneDirection& from) {
   const auto view = viewed(fabric, from.direction());
   // A grid over the warp's coordinates, along which the lobes run, then ever finer steps around the best.
   float theta = 0, phi = 0, step = radians(2);
-  const auto wi_at = [](float t, float p) { return Vec3(std::sin(t), std::cos(t) * std::sin(p), std::cos(t) * std::cos(p)); };
+  const auto wi_at = [](float t, float p) {
+    return Vec3(std::sin(t), std::cos(t) * std::sin(p), std::cos(t) * std::cos(p));
+  };
   const auto try_at = [&](float t, float p) {
     // Nearer to the horizon than 0.06 degrees no picture can show it.
     if (std::abs(t) >= pi / 2 || std::abs(p) >= pi / 2 || wi_at(t, p).z < 1e-3f) return;

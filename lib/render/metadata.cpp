@@ -13,9 +13,12 @@ const char* const finished_by_samples = "samples";
 std::string backdrop_text(const PictureJob& job) {
   const Color& c = job.scene.backdrop_color;
   switch (job.scene.backdrop) {
-    case Backdrop::environment: return "environment";
-    case Backdrop::plain: return fmt::format("{} {} {}", c.x, c.y, c.z);
-    case Backdrop::none: break;
+    case Backdrop::environment:
+      return "environment";
+    case Backdrop::plain:
+      return fmt::format("{} {} {}", c.x, c.y, c.z);
+    case Backdrop::none:
+      break;
   }
   return "none";
 }
@@ -23,10 +26,14 @@ std::string backdrop_text(const PictureJob& job) {
 
 std::string stop_reason_text(StopReason reason) {
   switch (reason) {
-    case StopReason::samples: return finished_by_samples;
-    case StopReason::error: return "error";
-    case StopReason::time: return "time";
-    case StopReason::interrupted: break;
+    case StopReason::samples:
+      return finished_by_samples;
+    case StopReason::error:
+      return "error";
+    case StopReason::time:
+      return "time";
+    case StopReason::interrupted:
+      break;
   }
   return "interrupted";
 }

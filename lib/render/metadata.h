@@ -11,18 +11,18 @@ namespace sateen {
 struct PictureJob {
   SceneSettings scene;
   RenderSettings render;
-  DisplaySettings display;           ///< settled
-  float exposure_ev = 0;             ///< in force
-  std::vector<std::string> layers;   ///< of an EXR, beside the beauty
-  std::string effects;               ///< in force, "shadows,gaps"
-  std::string color_config;          ///< ColorManager::description()
+  DisplaySettings display;          ///< settled
+  float exposure_ev = 0;            ///< in force
+  std::vector<std::string> layers;  ///< of an EXR, beside the beauty
+  std::string effects;              ///< in force, "shadows,gaps"
+  std::string color_config;         ///< ColorManager::description()
   std::string working_space;
   std::string version, command_line;
-  std::string turn;                  ///< of a turntable's frame, "object 40"; empty for a still
+  std::string turn;  ///< of a turntable's frame, "object 40"; empty for a still
 };
 
-/// Hash of everything that decides the pixels: look, mesh, map, camera, sampling, colour, the program's version. Not the
-/// number of threads, the files' names or the command line.
+/// Hash of everything that decides the pixels: look, mesh, map, camera, sampling, colour, the program's version. Not
+/// the number of threads, the files' names or the command line.
 std::string job_hash(const PictureJob& job, const SceneReport& report);
 
 /// The `sateen:*` attributes of a finished picture (README.md lists them) and Software.

@@ -27,8 +27,12 @@ std::string extension_of(const fs::path& path) {
 }
 
 // Display light and code values: a plain 2.2 power, near enough to sRGB and Rec.1886 for mixing at an edge.
-float light(float code) { return std::pow(code, 2.2f); }
-float code(float light) { return std::pow(std::max(light, 0.0f), 1 / 2.2f); }
+float light(float code) {
+  return std::pow(code, 2.2f);
+}
+float code(float light) {
+  return std::pow(std::max(light, 0.0f), 1 / 2.2f);
+}
 }  // namespace
 
 DisplaySettings settle_display(DisplaySettings settings, const ColorManager& colors) {
@@ -65,7 +69,9 @@ Image develop_display(const Image& beauty, const ColorManager& colors, const Dis
       const float paper = paper_code((float(x) + 0.5f) / float(out.width), (float(y) + 0.5f) / float(out.height));
       for (int c = 0; c < 3; ++c) {
         const float ground = settings.ground ? (*settings.ground)[c] : paper;
-        to[c] = alpha >= 1 ? from[c] : alpha <= 0 ? ground : code(light(from[c]) * alpha + light(ground) * (1 - alpha));
+        to[c] = alpha >= 1   ? from[c]
+                : alpha <= 0 ? ground
+                             : code(light(from[c]) * alpha + light(ground) * (1 - alpha));
       }
     }
   return out;
@@ -81,7 +87,9 @@ Image crop_image(const Image& image, const Crop& window) {
   return out;
 }
 
-bool is_exr(const fs::path& path) { return extension_of(path) == "exr"; }
+bool is_exr(const fs::path& path) {
+  return extension_of(path) == "exr";
+}
 
 const std::vector<std::string>& picture_extensions() {
   static const std::vector<std::string> all{"exr", "png", "jpg", "jpeg", "tif", "tiff"};

@@ -13,10 +13,10 @@ namespace sateen {
 
 /// How a picture is shown: what display formats get and an EXR does not.
 struct DisplaySettings {
-  std::string display, view;        ///< empty: the config's defaults
-  std::optional<float> exposure_ev; ///< empty: as metered
-  std::optional<Color> ground;      ///< code values of the display in [0, 1] behind the cloth; empty: paper
-  bool transparent = false;         ///< alpha instead of a ground
+  std::string display, view;         ///< empty: the config's defaults
+  std::optional<float> exposure_ev;  ///< empty: as metered
+  std::optional<Color> ground;       ///< code values of the display in [0, 1] behind the cloth; empty: paper
+  bool transparent = false;          ///< alpha instead of a ground
 };
 
 /// Fills in the config's defaults. InputError for a display or view that the config does not have, or that it cannot
@@ -27,9 +27,9 @@ DisplaySettings settle_display(DisplaySettings settings, const ColorManager& col
 /// pool behind the object towards the corners. x and y in [0, 1] from the top left.
 float paper_code(float x, float y);
 
-/// Code values, 3 channels, or 4 with `transparent`. `beauty` is premultiplied RGBA in the working space. Cloth and ground
-/// are joined as display light, after the view has been applied to the cloth, so that neither exposure nor view
-/// changes the ground; edges are not darkened by highlights far beyond white.
+/// Code values, 3 channels, or 4 with `transparent`. `beauty` is premultiplied RGBA in the working space. Cloth and
+/// ground are joined as display light, after the view has been applied to the cloth, so that neither exposure nor
+/// view changes the ground; edges are not darkened by highlights far beyond white.
 Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
                       float exposure_ev);
 
@@ -50,9 +50,9 @@ const std::vector<std::string>& layer_names();
 /// Writes one file by its extension; what is written tells how many half values had to be clamped.
 struct PictureContent {
   const Film* film = nullptr;
-  Crop crop;                         ///< only this window is written
-  std::vector<std::string> layers;   ///< beside the beauty, for an EXR
-  DisplaySettings display;           ///< settled
+  Crop crop;                        ///< only this window is written
+  std::vector<std::string> layers;  ///< beside the beauty, for an EXR
+  DisplaySettings display;          ///< settled
   float exposure_ev = 0;
   Attributes attributes;
 };

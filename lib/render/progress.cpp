@@ -46,7 +46,8 @@ void Progress::tell(double percent, const RenderState* state) {
   percent_ = std::max(percent_, std::min(percent, 99.0));
   const double whole = std::floor(percent_), time = now();
   // A bar may be drawn ten times a second; lines come a percent, or every 10 s to show that all is well.
-  const bool due = style_ == ProgressStyle::bar ? time - told_at_ >= 0.1 : whole > told_percent_ || time - told_at_ >= 10;
+  const bool due =
+      style_ == ProgressStyle::bar ? time - told_at_ >= 0.1 : whole > told_percent_ || time - told_at_ >= 10;
   if (style_ == ProgressStyle::none || !due) return;
   told_percent_ = whole;
   told_at_ = time;
@@ -60,9 +61,15 @@ void Progress::tell(double percent, const RenderState* state) {
       open_line_ = true;
       break;
     }
-    case ProgressStyle::lines: write_(fmt::format("{:3.0f} %  {}\n", whole, about)); break;
-    case ProgressStyle::alf: write_(fmt::format("ALF_PROGRESS {:.0f}%\n", whole)); break;
-    case ProgressStyle::openjd: write_(fmt::format("openjd_progress: {:.1f}\n", percent_)); break;
+    case ProgressStyle::lines:
+      write_(fmt::format("{:3.0f} %  {}\n", whole, about));
+      break;
+    case ProgressStyle::alf:
+      write_(fmt::format("ALF_PROGRESS {:.0f}%\n", whole));
+      break;
+    case ProgressStyle::openjd:
+      write_(fmt::format("openjd_progress: {:.1f}\n", percent_));
+      break;
     case ProgressStyle::json: {
       JsonWriter w(true);
       w.open_object().member("percent", whole);
@@ -74,7 +81,8 @@ void Progress::tell(double percent, const RenderState* state) {
       write_(w.close().text() + "\n");
       break;
     }
-    case ProgressStyle::none: break;
+    case ProgressStyle::none:
+      break;
   }
 }
 
@@ -82,12 +90,23 @@ void Progress::done() {
   if (ended_) return;
   ended_ = true;
   switch (style_) {
-    case ProgressStyle::bar: clear_line(); break;
-    case ProgressStyle::lines: write_("100 %\n"); break;
-    case ProgressStyle::alf: write_("ALF_PROGRESS 100%\n"); break;
-    case ProgressStyle::openjd: write_("openjd_progress: 100.0\n"); break;
-    case ProgressStyle::json: write_("{\"percent\": 100}\n"); break;
-    case ProgressStyle::none: break;
+    case ProgressStyle::bar:
+      clear_line();
+      break;
+    case ProgressStyle::lines:
+      write_("100 %\n");
+      break;
+    case ProgressStyle::alf:
+      write_("ALF_PROGRESS 100%\n");
+      break;
+    case ProgressStyle::openjd:
+      write_("openjd_progress: 100.0\n");
+      break;
+    case ProgressStyle::json:
+      write_("{\"percent\": 100}\n");
+      break;
+    case ProgressStyle::none:
+      break;
   }
 }
 

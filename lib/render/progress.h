@@ -10,11 +10,11 @@ namespace sateen {
 /// How progress is told. `automatic` is a bar on a terminal and lines elsewhere.
 enum class ProgressStyle {
   none,
-  bar,      ///< one line that is drawn anew: percent, error so far, time left
-  lines,    ///< a line a percent, and at least one every 10 s
-  alf,      ///< "ALF_PROGRESS 45%" (Tractor, Tractor-like farms)
-  openjd,   ///< "openjd_progress: 45.0" (Deadline Cloud)
-  json      ///< one JSON object a line
+  bar,     ///< one line that is drawn anew: percent, error so far, time left
+  lines,   ///< a line a percent, and at least one every 10 s
+  alf,     ///< "ALF_PROGRESS 45%" (Tractor, Tractor-like farms)
+  openjd,  ///< "openjd_progress: 45.0" (Deadline Cloud)
+  json     ///< one JSON object a line
 };
 
 /// Turns what render() tells into text. The percent never goes back and reaches 100 in done() alone, which is to be
@@ -27,9 +27,9 @@ class Progress {
 
   void update(const RenderState& state);
   void finish_part();
-  void done();          ///< 100 percent
-  void clear_line();    ///< takes the bar away, for a line of other text
-  void stopped();       ///< no more progress: the work will not be done
+  void done();        ///< 100 percent
+  void clear_line();  ///< takes the bar away, for a line of other text
+  void stopped();     ///< no more progress: the work will not be done
 
  private:
   void tell(double percent, const RenderState* state);

@@ -36,7 +36,8 @@ std::vector<Vec3> swept_points(const Mesh& mesh, const Vec3& pivot) {
       for (int end = 0; end < 2; ++end)
         for (int i = 0; i < corners; ++i) {
           const float angle = 2 * pi * float(i) / corners, r = radius[size_t(layer)] * outside;
-          points.emplace_back(pivot.x + r * std::cos(angle), low + height * float(layer + end) / layers, pivot.z + r * std::sin(angle));
+          points.emplace_back(pivot.x + r * std::cos(angle), low + height * float(layer + end) / layers,
+                              pivot.z + r * std::sin(angle));
         }
   return points;
 }
@@ -53,8 +54,8 @@ TurntableStart start_turntable(const Scene& scene, const CameraSettings& camera,
   start.light_rotation = 2 * std::numbers::pi * scene.environment.rotation_turns;
   start.pivot = (scene.mesh->bounds_min + scene.mesh->bounds_max) * 0.5f;
   start.camera = turn == Turn::light ? scene.camera
-                                     : frame_points(swept_points(*scene.mesh, start.pivot), camera, scene.camera.width,
-                                                    scene.camera.height);
+                                     : frame_points(swept_points(*scene.mesh, start.pivot), camera,
+                                                    scene.camera.width, scene.camera.height);
   return start;
 }
 
@@ -70,7 +71,8 @@ void pose_turntable(Scene& scene, const TurntableStart& start, double angle_deg)
   set_rotation(scene.environment, start.light_rotation + (start.turn == Turn::camera ? 0 : angle));
 }
 
-float turntable_exposure(Environment& environment, Turn turn, float azimuth_deg, float environment_ev, double degrees) {
+float turntable_exposure(Environment& environment, Turn turn, float azimuth_deg, float environment_ev,
+                         double degrees) {
   constexpr int steps = 24;
   if (turn == Turn::object) return metered_towards(environment, azimuth_deg, environment_ev);
   double light = 0;

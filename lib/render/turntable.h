@@ -13,20 +13,21 @@ const std::vector<std::string>& turn_names();  ///< "object", "camera", "light"
 /// Where everything stands at the first frame.
 struct TurntableStart {
   Turn turn = Turn::object;
-  Camera camera;               ///< one distance and one aim for all frames, so that the object does not pump
-  Vec3 pivot{0, 0, 0};         ///< the vertical axis goes through it
-  double light_rotation = 0;   ///< radians
+  Camera camera;              ///< one distance and one aim for all frames, so that the object does not pump
+  Vec3 pivot{0, 0, 0};        ///< the vertical axis goes through it
+  double light_rotation = 0;  ///< radians
 };
 
-/// Frames the whole body of revolution that the mesh sweeps about the vertical axis through the middle of its bounds; for a
-/// turning light the scene's own camera stays.
+/// Frames the whole body of revolution that the mesh sweeps about the vertical axis through the middle of its bounds;
+/// for a turning light the scene's own camera stays.
 TurntableStart start_turntable(const Scene& scene, const CameraSettings& camera, Turn turn);
 
-/// Sets camera and light of the scene for an angle [degrees]: to the right as the default camera sees what turns. The mesh
-/// stays where it is: a turning object is a camera and a light that turn together the other way.
+/// Sets camera and light of the scene for an angle [degrees]: to the right as the default camera sees what turns. The
+/// mesh stays where it is: a turning object is a camera and a light that turn together the other way.
 void pose_turntable(Scene& scene, const TurntableStart& start, double angle_deg);
 
 /// Exposure for all frames: the mean of the light that meets the side that the camera sees, over the orbit.
-float turntable_exposure(Environment& environment, Turn turn, float azimuth_deg, float environment_ev, double degrees);
+float turntable_exposure(Environment& environment, Turn turn, float azimuth_deg, float environment_ev,
+                         double degrees);
 
 }  // namespace sateen

@@ -35,14 +35,17 @@ TEST(Lobe, ValuesForPairsAreTheBitsOfTheKernelThatRenders) {
   ASSERT_EQ(rows.size(), 20u);
   std::string pairs;
   for (const auto* row : rows)
-    pairs += (pairs.empty() ? "" : ",\n") + std::string("{\"note\": 1, \"wi\": ") + list_text(*row->find("wi")) + ", \"wo\": " + list_text(*row->find("wo")) + "}";
+    pairs += (pairs.empty() ? "" : ",\n") + std::string("{\"note\": 1, \"wi\": ") + list_text(*row->find("wi")) +
+             ", \"wo\": " + list_text(*row->find("wo")) + "}";
   write_text(folder / "pairs.json", "{\"rows\": [" + pairs + "]}");
-  const Finished run = run_sateen({"lobe", "polyester_satin_charmeuse", "--pairs", "pairs.json", "-o", "values.json"}, {folder.path});
+  const Finished run =
+      run_sateen({"lobe", "polyester_satin_charmeuse", "--pairs", "pairs.json", "-o", "values.json"}, {folder.path});
   ASSERT_EQ(run.code, 0) << run.err;
 
   sateen::FabricParts parts;
   const sateen::Fabric fabric = sateen::compile_fabric(
-      sateen::read_look(std::string(SATEEN_SOURCE_DIR) + "/looks/polyester_satin_charmeuse.json"), sateen::same_space, parts);
+      sateen::read_look(std::string(SATEEN_SOURCE_DIR) + "/looks/polyester_satin_charmeuse.json"), sateen::same_space,
+      parts);
   const auto expected =
       sateen::lobe_values(fabric, sateen::FabricSampler::table, sateen::read_lobe_pairs(folder / "pairs.json"));
   const sateen::JsonDocument values = sateen::parse_json(read_text(folder / "values.json"), "values.json");
@@ -62,7 +65,8 @@ TEST(Lobe, ValuesForPairsAreTheBitsOfTheKernelThatRenders) {
 
 TEST(Lobe, TheUniformSamplersDensityIsThatOfTheHemisphere) {
   const Folder folder;
-  write_text(folder / "p.json", "{\"rows\": [{\"wi\": [0, 0.6, 0.8], \"wo\": [0, 0, 1]}, {\"wi\": [0, 0, -1], \"wo\": [0, 0, 1]}]}");
+  write_text(folder / "p.json",
+             "{\"rows\": [{\"wi\": [0, 0.6, 0.8], \"wo\": [0, 0, 1]}, {\"wi\": [0, 0, -1], \"wo\": [0, 0, 1]}]}");
   const Finished run = run_sateen({"lobe", "silk_shot", "--pairs", "p.json", "--sampler", "uniform"}, {folder.path});
   const sateen::JsonDocument values = sateen::parse_json(run.out, "values");
   EXPECT_FLOAT_EQ(float(values.root.find("rows")->items[0].find("pdf")->number), 0.15915494f);
@@ -72,12 +76,16 @@ TEST(Lobe, TheUniformSamplersDensityIsThatOfTheHemisphere) {
 
 TEST(Lobe, EveryBadRowIsToldWithItsPlace) {
   const Folder folder;
-  write_text(folder / "p.json", "{\"rows\": [\n{\"wi\": [0, 0, 2], \"wo\": [0, 0, 1]},\n{\"wi\": [0, 1], \"wo\": [0, 0, 1]},\n{\"wi\": [0, 0, 1]},\n7]}\n");
+  write_text(folder / "p.json",
+             "{\"rows\": [\n{\"wi\": [0, 0, 2], \"wo\": [0, 0, 1]},\n{\"wi\": [0, 1], \"wo\": [0, 0, 1]},\n{\"wi\": "
+             "[0, 0, 1]},\n7]}\n");
   const Finished run = run_sateen({"lobe", "silk_shot", "--pairs", "p.json"}, {folder.path});
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.out, "");
-  for (const char* message : {"p.json:2:8: error: wi has the length 2, expected a unit direction", "p.json:3:8: error: wi is not a list of three numbers",
-                              "p.json:4:1: error: the row has no wo", "p.json:5:1: error: the row is not an object with wi and wo"})
+  for (const char* message :
+       {"p.json:2:8: error: wi has the length 2, expected a unit direction",
+        "p.json:3:8: error: wi is not a list of three numbers", "p.json:4:1: error: the row has no wo",
+        "p.json:5:1: error: the row is not an object with wi and wo"})
     EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
 }
 
@@ -107,8 +115,9 @@ TEST(LookCommand, ListNamesEveryShippedLookWithTitleAndDescription) {
 
 TEST(LookCommand, CheckPrintsAlbedoByAngleAndNamesWhatPassesOne) {
   const Folder folder;
-  write_text(folder / "glow.json",
-             "{ \"warp\": { \"A\": [3, 1, 0.1], \"coverage\": 0.5 }, \"weft\": { \"A\": [3, 1, 0.1], \"coverage\": 0.5 } }");
+  write_text(
+      folder / "glow.json",
+      "{ \"warp\": { \"A\": [3, 1, 0.1], \"coverage\": 0.5 }, \"weft\": { \"A\": [3, 1, 0.1], \"coverage\": 0.5 } }");
   const Finished run = run_sateen({"look", "check", "glow.json", "silk_shot"}, {folder.path});
   EXPECT_EQ(run.code, 0);
   for (const char* angle : {"\n      0  ", "\n     30  ", "\n     45  ", "\n     60  ", "\n     75  ", "\n     85  "})
@@ -159,7 +168,8 @@ TEST(LookCommand, SchemaIsTheLibrarysOwn) {
 TEST(EnvCommand, MakesWhatItsDescriptionSaysAndInspectsIt) {
   const Folder folder;
   write_text(folder / "d.json",
-             "{ \"size\": [64, 32], \"lights\": [ { \"kind\": \"disc\", \"azimuth_deg\": 90, \"elevation_deg\": 0, \"width_deg\": 30, \"intensity\": 5 } ] }");
+             "{ \"size\": [64, 32], \"lights\": [ { \"kind\": \"disc\", \"azimuth_deg\": 90, \"elevation_deg\": 0, "
+             "\"width_deg\": 30, \"intensity\": 5 } ] }");
   const Finished made = run_sateen({"env", "make", "d.json", "-o", "d.exr", "-r", "128", "64"}, {folder.path});
   ASSERT_EQ(made.code, 0) << made.err;
   EXPECT_EQ(sateen::read_image_info(folder / "d.exr").width, 128);
@@ -184,10 +194,12 @@ TEST(Check, TellsLooksMeshesAndMapsApartAndWhatIsWrong) {
   write_text(folder / "bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   write_text(folder / "cut.exr", "v/1");
   write_text(folder / "notes.txt", "hello");
-  const Finished run = run_sateen({"check", "silk_shot", "bad.json", "bare.obj", "overcast", "cut.exr", "notes.txt"}, {folder.path});
+  const Finished run =
+      run_sateen({"check", "silk_shot", "bad.json", "bare.obj", "overcast", "cut.exr", "notes.txt"}, {folder.path});
   EXPECT_EQ(run.code, 3);
-  for (const char* line : {"silk_shot: look, good\n", "bad.json: not usable\n", "bare.obj: mesh\n", "  note: it has no UVs", "overcast: map, good\n",
-                           "cut.exr: not usable\n", "notes.txt: not usable\n"})
+  for (const char* line :
+       {"silk_shot: look, good\n", "bad.json: not usable\n", "bare.obj: mesh\n", "  note: it has no UVs",
+        "overcast: map, good\n", "cut.exr: not usable\n", "notes.txt: not usable\n"})
     EXPECT_NE(run.out.find(line), std::string::npos) << line << "\n" << run.out;
   EXPECT_NE(run.err.find("bad.json:1:28: error: "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("notes.txt: neither a look (.json), a mesh (.obj) nor a map"), std::string::npos) << run.err;

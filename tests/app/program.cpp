@@ -27,7 +27,9 @@ Folder::~Folder() {
   fs::remove_all(path, ignored);
 }
 
-void write_text(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 std::string read_text(const fs::path& path) {
   std::ostringstream text;
@@ -99,7 +101,8 @@ Finished run_sateen(const std::vector<std::string>& words, const Start& start) {
 }
 
 std::vector<std::string> tiny(std::vector<std::string> more) {
-  std::vector<std::string> words{"render", "--mesh", "swatch", "--level", "1", "-r", "64", "36", "-s", "4", "--progress", "none"};
+  std::vector<std::string> words{"render", "--mesh", "swatch", "--level", "1", "--env",      "overcast",
+                                 "-r",     "64",     "36",     "-s",      "4", "--progress", "none"};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }

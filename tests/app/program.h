@@ -21,8 +21,8 @@ void write_text(const std::filesystem::path& path, const std::string& text);
 std::string read_text(const std::filesystem::path& path);
 
 struct Finished {
-  int code = -1;          ///< exit code; 128 + n where signal n killed it
-  std::string out, err;   ///< everything it said
+  int code = -1;         ///< exit code; 128 + n where signal n killed it
+  std::string out, err;  ///< everything it said
   double seconds_after_signal = 0;
 };
 

@@ -10,7 +10,8 @@ void expect_refused(const Finished& run, int code, const std::string& message) {
   EXPECT_EQ(run.err, message);
   EXPECT_EQ(run.out, "");
 }
-const std::string render_usage = "usage: sateen render [--look NAME] [--mesh FILE] [--env MAP] [-o FILE]... [flags]\n";
+const std::string render_usage =
+    "usage: sateen render [--look NAME] [--mesh FILE] [--env MAP] [-o FILE]... [flags]\n";
 }  // namespace
 
 TEST(Usage, AMisspeltFlagIsAnsweredWithTheNearestOne) {
@@ -27,7 +28,8 @@ TEST(Usage, EveryFaultOfACommandLineIsToldAtOnce) {
   expect_refused(run_sateen({"render", "--spp", "0", "--fov", "wide", "--wat"}), 2,
                  "error: --fov is wide, expected a number from 1 to 150\n"
                  "error: --spp is 0, expected a whole number from 1 to 1073741824\n"
-                 "error: there is no flag --wat\n  help: sateen render --help lists the flags\n" + render_usage);
+                 "error: there is no flag --wat\n  help: sateen render --help lists the flags\n" +
+                     render_usage);
 }
 
 TEST(Usage, AMisspeltValueIsAnsweredWithTheNearestOne) {
@@ -35,9 +37,10 @@ TEST(Usage, AMisspeltValueIsAnsweredWithTheNearestOne) {
                  "error: unknown strategy 'mis-compensate'\n  help: did you mean mis-compensated?\n");
   expect_refused(run_sateen({"render", "--progress", "barr"}), 2,
                  "error: --progress is barr\n  help: did you mean bar?\n" + render_usage);
-  expect_refused(run_sateen({"render", "--aov", "albedo,norml"}), 2,
-                 "error: there is no layer norml\n  help: known: direct, indirect, backdrop, surface, volume, warp_surface, "
-                 "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
+  expect_refused(
+      run_sateen({"render", "--aov", "albedo,norml"}), 2,
+      "error: there is no layer norml\n  help: known: direct, indirect, backdrop, surface, volume, warp_surface, "
+      "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
 }
 
 TEST(Usage, AFlagWithoutItsValueSaysWhatItWants) {
@@ -46,7 +49,8 @@ TEST(Usage, AFlagWithoutItsValueSaysWhatItWants) {
 
 TEST(Usage, AMisspeltCommandIsAnsweredWithTheNearestOne) {
   expect_refused(run_sateen({"rendr"}), 2, "error: there is no command sateen rendr\n  help: did you mean render?\n");
-  expect_refused(run_sateen({"look", "chek"}), 2, "error: there is no command sateen look chek\n  help: did you mean check?\n");
+  expect_refused(run_sateen({"look", "chek"}), 2,
+                 "error: there is no command sateen look chek\n  help: did you mean check?\n");
 }
 
 TEST(Usage, AMissingLookNamesTheNearestAndEndsWithThree) {
@@ -86,9 +90,10 @@ TEST(Usage, OutputsThatCannotBeWrittenAreRefusedBeforeAnythingIsRendered) {
                  "error: a.pgn: pictures of kind .pgn are not written\n  help: did you mean png?\n");
   expect_refused(run_sateen({"render", "-o", "picture"}), 2,
                  "error: picture has no extension, which picks the format\n  help: add .png, .exr, .jpg or .tif\n");
-  expect_refused(run_sateen({"render", "-o", "/proc/nowhere/a.png"}), 1,
-                 "error: /proc/nowhere/a.png cannot be written (its folder cannot be made: No such file or directory); "
-                 "nothing was rendered\n");
+  expect_refused(
+      run_sateen({"render", "-o", "/proc/nowhere/a.png"}), 1,
+      "error: /proc/nowhere/a.png cannot be written (its folder cannot be made: No such file or directory); "
+      "nothing was rendered\n");
 }
 
 TEST(Usage, ACropOutsideThePictureIsRefused) {
@@ -124,8 +129,8 @@ TEST(Usage, AnUnknownColourConfigViewAndSpaceAreLoud) {
 
 TEST(Usage, EveryCommandHasHelpWithExamples) {
   const std::vector<std::vector<std::string>> commands{
-      {"render"}, {"turntable"}, {"lobe"}, {"check"}, {"look", "check"}, {"look", "resolve"}, {"look", "diff"},
-      {"look", "schema"}, {"env", "make"}, {"env", "inspect"}};
+      {"render"},          {"turntable"},    {"lobe"},           {"check"},       {"look", "check"},
+      {"look", "resolve"}, {"look", "diff"}, {"look", "schema"}, {"env", "make"}, {"env", "inspect"}};
   for (auto words : commands) {
     words.push_back("--help");
     const Finished run = run_sateen(words);

@@ -57,10 +57,12 @@ TEST(Figure, TextIsPlacedByItsAnchor) {
 TEST(Figure, SvgEscapesTextAndHoldsEveryShape) {
   Figure figure;
   figure.width = figure.height = 10;
-  figure.shapes = {FigureText{Vec2(0, 0), "a<b & c", Color(0, 0, 0), 1, FigureText::Anchor::left}, FigureBox{Vec2(0, 0), Vec2(2, 2), Color(1, 0, 0)},
-                   FigurePicture{Vec2(0, 0), Image(4, 4, 3), 1}, FigureLine{{Vec2(0, 0), Vec2(1, 1)}, Color(0, 0, 0), 1, true}};
+  figure.shapes = {FigureText{Vec2(0, 0), "a<b & c", Color(0, 0, 0), 1, FigureText::Anchor::left},
+                   FigureBox{Vec2(0, 0), Vec2(2, 2), Color(1, 0, 0)}, FigurePicture{Vec2(0, 0), Image(4, 4, 3), 1},
+                   FigureLine{{Vec2(0, 0), Vec2(1, 1)}, Color(0, 0, 0), 1, true}};
   const std::string svg = figure_svg(figure);
-  for (const char* part : {"a&lt;b &amp; c", "fill=\"#ff0000\"", "M0 3.5h4", "<polygon"}) EXPECT_NE(svg.find(part), std::string::npos) << part;
+  for (const char* part : {"a&lt;b &amp; c", "fill=\"#ff0000\"", "M0 3.5h4", "<polygon"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
 }
 
 TEST(ContactSheet, ShrinkingKeepsTheMeanAndTheShape) {
@@ -87,7 +89,8 @@ TEST(ContactSheet, HoldsEveryPictureAndLabelsTakeRoomOnlyWhereAskedFor) {
   EXPECT_GT(labelled.height, plain.height);
   for (int i = 0; i < 7; ++i) {
     int found = 0;
-    for (size_t p = 0; p < plain.pixels.size(); p += 3) found += std::abs(plain.pixels[p] - (0.3f + 0.1f * float(i))) < 1e-6f;
+    for (size_t p = 0; p < plain.pixels.size(); p += 3)
+      found += std::abs(plain.pixels[p] - (0.3f + 0.1f * float(i))) < 1e-6f;
     EXPECT_EQ(found, 200) << i;
   }
   EXPECT_GT(contact_sheet({}, true).width, 0);

@@ -11,7 +11,15 @@ namespace sateen {
 TEST(JsonWriter, WhatItWritesIsReadBackTheSame) {
   JsonWriter w;
   w.open_object().member("text", "a\"b\\c\n\t\x01").member("whole", -7).member("big", 1234567890123LL);
-  w.member("tenth", 0.1).member("yes", true).key("list").open_list().value(1).value("two").open_object().close().close();
+  w.member("tenth", 0.1)
+      .member("yes", true)
+      .key("list")
+      .open_list()
+      .value(1)
+      .value("two")
+      .open_object()
+      .close()
+      .close();
   w.key("empty").open_list().close().close();
   const JsonDocument d = parse_json(w.text(), "t");
   EXPECT_EQ(d.root.find("text")->text, "a\"b\\c\n\t\x01");
@@ -37,7 +45,10 @@ TEST(JsonWriter, NumbersThatAreNotFiniteAreNull) {
 
 TEST(JsonWriter, BytesThatAreNotUtf8AreReplacedOneByOne) {
   EXPECT_EQ(valid_utf8("caf\xc3\xa9 \xe2\x82\xac"), "caf\xc3\xa9 \xe2\x82\xac");
-  EXPECT_EQ(valid_utf8("a\xff" "b\xc0\xaf"), "a\xef\xbf\xbd" "b\xef\xbf\xbd\xef\xbf\xbd");
+  EXPECT_EQ(valid_utf8("a\xff"
+                       "b\xc0\xaf"),
+            "a\xef\xbf\xbd"
+            "b\xef\xbf\xbd\xef\xbf\xbd");
   EXPECT_EQ(valid_utf8("\xed\xa0\x80").size(), 9u);
   EXPECT_EQ(valid_utf8("\xf4\x90\x80\x80").size(), 12u);
   EXPECT_EQ(valid_utf8("\xe2\x82"), "\xef\xbf\xbd\xef\xbf\xbd");

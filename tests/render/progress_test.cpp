@@ -8,9 +8,11 @@
 namespace sateen {
 
 namespace {
-std::vector<double> percents(ProgressStyle style, const std::vector<double>& fractions, int parts = 1, bool finished = true) {
+std::vector<double> percents(ProgressStyle style, const std::vector<double>& fractions, int parts = 1,
+                             bool finished = true) {
   std::string text;
-  Progress progress(style, [&](std::string_view piece) { text += piece; }, parts);
+  Progress progress(
+      style, [&](std::string_view piece) { text += piece; }, parts);
   for (int part = 0; part < parts; ++part) {
     for (const double f : fractions) {
       RenderState state;
@@ -23,13 +25,15 @@ std::vector<double> percents(ProgressStyle style, const std::vector<double>& fra
   progress.update({});
   std::vector<double> values;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) values.push_back(std::stod(line.substr(line.find_first_of("0123456789"))));
+  for (std::string line; std::getline(lines, line);)
+    values.push_back(std::stod(line.substr(line.find_first_of("0123456789"))));
   return values;
 }
 }  // namespace
 
 TEST(ProgressText, NeverGoesBackAndReachesAHundredInDoneAlone) {
-  for (const ProgressStyle style : {ProgressStyle::lines, ProgressStyle::alf, ProgressStyle::openjd, ProgressStyle::json}) {
+  for (const ProgressStyle style :
+       {ProgressStyle::lines, ProgressStyle::alf, ProgressStyle::openjd, ProgressStyle::json}) {
     const auto values = percents(style, {0.1, 0.5, 0.2, 0.7, 1.0, 0.9});
     EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
     EXPECT_EQ(values.back(), 100);

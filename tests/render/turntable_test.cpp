@@ -32,7 +32,8 @@ Vec2 seen_at(const Camera& camera, const Vec3& p) {
 
 Vec3 rotated(const Vec3& p, const Vec3& pivot, double degrees) {
   const double a = degrees * double(pi) / 180, x = double(p.x - pivot.x), z = double(p.z - pivot.z);
-  return pivot + Vec3(float(x * std::cos(a) + z * std::sin(a)), p.y - pivot.y, float(z * std::cos(a) - x * std::sin(a)));
+  return pivot +
+         Vec3(float(x * std::cos(a) + z * std::sin(a)), p.y - pivot.y, float(z * std::cos(a) - x * std::sin(a)));
 }
 }  // namespace
 
@@ -53,7 +54,9 @@ TEST(TurntablePose, ATurningObjectLooksAsIfItsPointsHadTurned) {
 TEST(TurntablePose, TheLightStaysWithTheCameraWhileTheObjectTurns) {
   Scene scene = swatch_scene();
   const TurntableStart start = start_turntable(scene, CameraSettings(), Turn::object);
-  const auto light_ahead = [&] { return environment_radiance(scene.environment, scene.camera.forward + scene.camera.right * 0.3f); };
+  const auto light_ahead = [&] {
+    return environment_radiance(scene.environment, scene.camera.forward + scene.camera.right * 0.3f);
+  };
   pose_turntable(scene, start, 0);
   const Color first = light_ahead();
   for (const double angle : {45.0, 101.0, 260.0}) {
