@@ -10,7 +10,7 @@ namespace sateen {
 /// A camera as people place it: around the object, by angles.
 struct CameraSettings {
   float azimuth_deg = 0;      ///< 0 looks along -Z; positive walks to the right around the object
-  float elevation_deg = 12;   ///< above the horizon, -89 to 89
+  float elevation_deg = 18;   ///< above the horizon, -89 to 89
   float fov_deg = 26;         ///< of the picture's longer side, 1 to 150
   float margin = 0.06f;       ///< of the picture, kept free around the object
   float zoom = 1;             ///< above 1 comes closer than the framing
