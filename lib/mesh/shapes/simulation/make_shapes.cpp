@@ -150,7 +150,7 @@ Cloth make_drape() {
   satin.thickness = 0.006;
   speed = settle(cloth, satin, around);
   report("drape", cloth, speed);
-  turn_about_y(cloth, 0.97 * std::numbers::pi);  // its best side to the front
+  turn_about_y(cloth, 0.826 * std::numbers::pi);  // its best side to the front
   return cloth;
 }
 
