@@ -105,7 +105,7 @@ void add_camera(Command& c, PictureFlags& f) {
 void add_quality(Command& c, PictureFlags& f) {
   StopRules& stop = f.render.stop;
   c.group("Quality (whichever is met first stops)");
-  c.integer("-s,--spp", "N", stop.spp, 1, 1 << 30, "samples a pixel (default: 64 when no other rule is given)");
+  c.integer("-s,--spp", "N", stop.spp, 1, 1 << 30, "samples a pixel (default: 128 when no other rule is given)");
   c.number("--error", "E", stop.error, 1e-6, 100,
            "relative error of the picture, such as 0.02; its upper bound counts");
   c.custom(

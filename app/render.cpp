@@ -34,7 +34,7 @@ int run_render(const std::vector<std::string>& words) {
   add_picture_flags(command, flags);
   describe(command);
   if (!command.parse(words)) return done;
-  constexpr int default_spp = 64;
+  constexpr int default_spp = 128;
   settle_picture_flags(command, flags, default_spp);
   if (flags.outputs.empty()) flags.outputs = {"sateen.png", "sateen.exr"};
   std::set<std::string> names;

@@ -52,8 +52,8 @@ Color solve_volume_color(const Color& color, const Albedo& normal, const std::st
 
 Color same_space(const Color& value, const std::string&) { return value; }
 
-Albedo albedo(const Threads<float>& threads, const Vec3& wo) {
-  constexpr int thetas = 192, phis = 96;
+Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
+  const int phis = thetas / 2;
   ThreadView<float> view;
   prepare_view<float>(threads, wo.x, wo.y, wo.z, view);
   double surface = 0, volume[2] = {0, 0};
@@ -70,8 +70,8 @@ Albedo albedo(const Threads<float>& threads, const Vec3& wo) {
   return {float(surface), {float(volume[0]), float(volume[1])}};
 }
 
-Color albedo_color(const Fabric& fabric, const Vec3& wo) {
-  const Albedo a = albedo(fabric.threads, wo);
+Color albedo_color(const Fabric& fabric, const Vec3& wo, int thetas) {
+  const Albedo a = albedo(fabric.threads, wo, thetas);
   return Color(a.surface) + fabric.A[0] * a.volume[0] + fabric.A[1] * a.volume[1];
 }
 

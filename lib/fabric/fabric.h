@@ -80,7 +80,8 @@ struct Albedo {
   float surface = 0;
   std::array<float, 2> volume{0, 0};
 };
-Albedo albedo(const Threads<float>& threads, const Vec3& wo);
-Color albedo_color(const Fabric& fabric, const Vec3& wo);
+/// A coarser one (`thetas`, half as many phis) serves where an approximate value will do.
+Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas = 192);
+Color albedo_color(const Fabric& fabric, const Vec3& wo, int thetas = 192);
 
 }  // namespace sateen

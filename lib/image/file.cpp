@@ -12,13 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Beside the installed program, beside a program of the build tree, or where the library itself was built.
+// Beside the installed program or one of the build tree; for another program that uses the library, where that was
+// installed or built.
 std::vector<fs::path> module_places() {
   std::vector<fs::path> places;
   std::error_code code;
   if (const fs::path program = fs::read_symlink("/proc/self/exe", code); !code)
     places.push_back(program.parent_path().parent_path() / "lib" / "sateen" / SATEEN_OIIO_MODULE);
-  places.push_back(fs::path(SATEEN_OIIO_MODULE_FOLDER) / SATEEN_OIIO_MODULE);
+  for (const char* folder : {SATEEN_OIIO_INSTALL_FOLDER, SATEEN_OIIO_MODULE_FOLDER})
+    places.push_back(fs::path(folder) / SATEEN_OIIO_MODULE);
   return places;
 }
 

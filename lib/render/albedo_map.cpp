@@ -8,13 +8,16 @@
 namespace sateen {
 
 namespace {
+// A layer to look at: 1 % is enough, and it is computed before the first pass.
+constexpr int map_thetas = 72;
+
 AlbedoMap map_albedo(const Fabric& fabric, int threads) {
   AlbedoMap map;
   map.values.resize(size_t(AlbedoMap::cosines * AlbedoMap::azimuths));
   parallel_for(int(map.values.size()), threads, [&](int i) {
     const float z = (float(i / AlbedoMap::azimuths) + 0.5f) / AlbedoMap::cosines;
     const float angle = 2 * pi * float(i % AlbedoMap::azimuths) / AlbedoMap::azimuths, r = std::sqrt(1 - z * z);
-    map.values[size_t(i)] = albedo_color(fabric, Vec3(r * std::cos(angle), r * std::sin(angle), z));
+    map.values[size_t(i)] = albedo_color(fabric, Vec3(r * std::cos(angle), r * std::sin(angle), z), map_thetas);
   });
   return map;
 }
