@@ -106,5 +106,25 @@ TEST(Bounces, AgreeWithAPlainPathTracerThroughSheerWalls) {
   expect_plain_answer(corner(fabric_of(look), soft_map()), {1, 3}, "sheer linen");
 }
 
+// Bright cloth all around but above: half of the light has met it more than three times, and roulette plays.
+TEST(Bounces, AgreeWithAPlainPathTracerInADeepBox) {
+  Look look = bright("silk_crepe_de_chine");
+  for (ThreadFamily* f : {&look.warp, &look.weft}) {
+    f->eta = 1;
+    f->k_d = 1;
+    f->offsets_deg = {0, 0};
+    f->lengths = {1};
+    f->A.value = Color(0.45f, 0.4f, 0.2f);
+  }
+  Mesh mesh = floor_quad();
+  for (const float side : {-0.5f, 0.5f}) {
+    add_quad(mesh, Vec3(side, 1, 0), Vec3(0, 2, 0), Vec3(0, 0, side < 0 ? 1.0f : -1.0f));
+    add_quad(mesh, Vec3(0, 1, side), Vec3(side < 0 ? 1.0f : -1.0f, 0, 0), Vec3(0, 2, 0));
+  }
+  Scene scene = make_scene(std::move(mesh), fabric_of(look), soft_map());
+  scene.camera = distant_camera(Vec3(-0.35f, 0, -0.3f), Vec3(0.02f, 1, 0.03f), 0.01f);
+  expect_plain_answer(scene, {10}, "box");
+}
+
 }  // namespace
 }  // namespace sateen_test
