@@ -8,7 +8,7 @@
 
 namespace sateen {
 
-inline constexpr const char* default_look = "ivory_duchess_satin";
+inline constexpr const char* default_look = "champagne_silk_satin";
 inline constexpr const char* default_mesh = "drape";
 inline constexpr const char* default_environment = "studio_softboxes";
 
