@@ -79,8 +79,8 @@ std::vector<Tangent> table_quadrature(const std::vector<float>& offsets_deg, con
   return tangent_quadrature(offsets_deg, lengths, gamma, 10.0, 60 * to_radians, panel_nodes);
 }
 
-std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents) {
-  std::vector<Tangent> halved;
+std::vector<Tangent> cut_panels(const std::vector<Tangent>& tangents, double panel_radians) {
+  std::vector<Tangent> cut;
   for (size_t i = 0; i < tangents.size();) {
     const Tangent& first = tangents[i];
     size_t end = i + 1;
@@ -88,7 +88,7 @@ std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents) {
            tangents[end].end == first.end && tangents[end].panel_from == first.panel_from)
       ++end;
     const double width = first.panel_to - first.panel_from;
-    const int pieces = width * (first.end - first.start) > 6 * to_radians ? 2 : 1;
+    const int pieces = std::max(1, int(std::ceil(width * (first.end - first.start) / panel_radians - 1e-6)));
     for (int piece = 0; piece < pieces; ++piece) {
       const double from = first.panel_from + piece * width / pieces;
       for (size_t k = i; k < end; ++k) {
@@ -97,12 +97,12 @@ std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents) {
         t.weight /= pieces;
         t.panel_from = from;
         t.panel_to = from + width / pieces;
-        halved.push_back(t);
+        cut.push_back(t);
       }
     }
     i = end;
   }
-  return halved;
+  return cut;
 }
 
 SignChange sign_change() {

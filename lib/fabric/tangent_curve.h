@@ -33,10 +33,10 @@ std::vector<Tangent> tangent_quadrature(const std::vector<float>& offsets_deg, c
 /// Gauss-Legendre nodes of a panel that the renderer uses: one block of lanes.
 inline constexpr int panel_nodes = 8;
 
-/// The quadrature that the renderer uses: its error against a fine one is below 1e-3 of the peak of F at every view
-/// for every look of the project (tests/fabric/precision_test.cpp). Panels of 8 gamma, of 1.25 sigma (`masking_width`
-/// [radians], the width of u in M and P) and of 25 degrees at most: the lobe, the masking and the angles must each look
-/// like a polynomial within a panel.
+/// The quadrature that the renderer uses: its error against a fine one is below 1e-3 of the peak of F at that view for
+/// every look of the project (tests/fabric/precision_test.cpp; 1e-2 where a direction is within 0.6 degrees of the
+/// horizon). Panels of 8 gamma, of 1.25 sigma (`masking_width` [radians], the width of u in M and P) and of 25 degrees at
+/// most: the lobe, the masking and the angles must each look like a polynomial within a panel.
 std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
                                        double gamma, double masking_width);
 
@@ -44,8 +44,8 @@ std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, co
 std::vector<Tangent> table_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
                                       double gamma);
 
-/// The same curve with twice the nodes in every panel that is longer than 6 degrees.
-std::vector<Tangent> halve_panels(const std::vector<Tangent>& tangents);
+/// The same curve with every panel cut into equal pieces of at most `panel_radians`, each with all the panel's nodes.
+std::vector<Tangent> cut_panels(const std::vector<Tangent>& tangents, double panel_radians);
 
 /// Integrals of an integrand that is smooth on a panel but for a change of sign: for h smooth,
 ///     integral of h(x) sign(c - x) over [0, 1]  ~  sum_k w_k h(x_k) S_k(2c - 1),   S_k(y) = sum_j row[j][k] y^j

@@ -38,13 +38,13 @@ struct Threads {
   std::vector<Real> panel_from, panel_to;
   Real sign_change[panel_nodes + 1][panel_nodes];
 
-  /// The same curves with halved panels, for pairs with a direction that grazes the cloth: there everything turns faster
-  /// along a thread. One entry, or none where nothing slopes.
+  /// The same curves with panels of 6 degrees at most, for pairs with a direction that grazes the cloth: there everything turns faster
+  /// along a thread. One entry, or none where all panels are that short.
   std::vector<Threads> grazing;
 };
 
-/// wi.z or wo.z below which `grazing` serves: 3.4 degrees. Errors of up to 3e-3 of the peak were all below it.
-inline constexpr float grazing_z = 0.06f;
+/// wi.z or wo.z below which `grazing` serves: 5.7 degrees. Errors between 1e-3 and 3e-3 of the peak were all below it.
+inline constexpr float grazing_z = 0.1f;
 
 /// Most tangents that one look may need: gamma 0.5 degrees over a full curve in both families takes 840.
 inline constexpr int most_tangents = 1024;
@@ -61,6 +61,7 @@ struct ThreadView {
   Real normal_r[most_tangents], binormal_r[most_tangents];      ///< unit azimuth of wo; normal_r = cos phi_r >= 0
   Real projected_r[most_tangents];                              ///< p_r = max(cos psi_r, 0)
   bool alive[most_tangents / 8];                                ///< blocks of 8 in which some tangent faces the view
+  Real scale[2];                  ///< 1 / hypot(d, z) of wo for warp and weft
   Real across_d[2], across_n[2];  ///< unit (d, n) projection of wo for warp and weft: the angle psi_r
   Real from[2], to[2];            ///< offsets of the two families that can face the view [radians]
   Real panel_start[most_tangents / 8], panel_inverse[most_tangents / 8];  ///< where a panel lies now; 1 / its width

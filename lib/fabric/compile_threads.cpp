@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "fabric/threads.h"
+
+namespace sateen {
+
+namespace {
+
+constexpr double grazing_panel_deg = 6;  // what the looks' 7-gamma panels need near the horizon
+
+// The leading tangents of a curve that form whole panels of panel_nodes.
+size_t count_panel_nodes(const std::vector<Tangent>& tangents) {
+  size_t n = 0;
+  const auto same = [](const Tangent& a, const Tangent& b) {
+    return a.start == b.start && a.end == b.end && a.panel_from == b.panel_from && a.weight > 0;
+  };
+  for (; n + panel_nodes <= tangents.size() && tangents[n].start != tangents[n].end; n += panel_nodes) {
+    const auto first = tangents.begin() + long(n);
+    const bool longer = n + panel_nodes < tangents.size() && same(first[0], first[panel_nodes]);
+    if (longer || !std::all_of(first, first + panel_nodes, [&](const Tangent& t) { return same(*first, t); })) break;
+  }
+  return n;
+}
+
+template <class Real>
+void add_tangents(Threads<Real>& out, const ThreadFamily& family, bool warp, const Tangent* begin, const Tangent* end) {
+  constexpr double to_radians = std::numbers::pi / 180;
+  const double gamma_s = family.gamma_s_deg * to_radians, gamma_v = family.gamma_v_deg * to_radians;
+  const double root = std::sqrt(2 * std::numbers::pi), eta = family.eta, k_d = family.k_d;
+  const int index = warp ? 0 : 1;
+  for (const Tangent* tangent = begin; tangent != end; ++tangent) {
+    const Tangent& t = *tangent;
+    const bool flat = t.start == t.end;
+    out.start.push_back(Real(t.start));
+    out.span.push_back(Real(t.end - t.start));
+    out.node.push_back(Real(t.node));
+    out.flat.push_back(flat ? 1 : 0);
+    out.inverse_span.push_back(flat ? 0 : Real(1 / (t.end - t.start)));
+    out.weight.push_back(Real(double(family.coverage) * t.weight));
+    out.along_x.push_back(warp ? 1 : 0);
+    if (!flat) {
+      out.slope_from[index] = std::min(out.slope_from[index], Real(t.start));
+      out.slope_to[index] = std::max(out.slope_to[index], Real(t.end));
+    }
+    out.eta2.push_back(Real(eta * eta));
+    out.eta2_minus_1.push_back(Real(eta * eta - 1));
+    out.surface_exponent.push_back(Real(1 / (2 * gamma_s * gamma_s)));
+    out.surface_norm.push_back(Real(1 / (gamma_s * root)));
+    out.volume_exponent.push_back(Real(1 / (2 * gamma_v * gamma_v)));
+    out.volume_norm.push_back(Real((1 - k_d) / (gamma_v * root)));
+    out.isotropic.push_back(Real(k_d));
+  }
+}
+
+/// The panels of both families, each in a block of its own, then everything else.
+template <class Real>
+void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangent>& warp,
+                  const std::vector<Tangent>& weft) {
+  const ThreadFamily* families[2] = {&look.warp, &look.weft};
+  const std::vector<Tangent>* curves[2] = {&warp, &weft};
+  for (const bool in_panels : {true, false})
+    for (int family = 0; family < 2; ++family) {
+      if (!(families[family]->coverage > 0)) continue;
+      const Tangent* all = curves[family]->data();
+      const size_t nodes = count_panel_nodes(*curves[family]);
+      if (!in_panels) {
+        add_tangents(out, *families[family], family == 0, all + nodes, all + curves[family]->size());
+        continue;
+      }
+      add_tangents(out, *families[family], family == 0, all, all + nodes);
+      out.panels[family] = int(nodes / panel_nodes);
+      for (size_t n = 0; n < nodes; n += panel_nodes) {
+        out.panel_from.push_back(Real(all[n].panel_from));
+        out.panel_to.push_back(Real(all[n].panel_to));
+      }
+    }
+  const SignChange rows = sign_change();
+  for (int j = 0; j <= panel_nodes; ++j)
+    for (int k = 0; k < panel_nodes; ++k) out.sign_change[j][k] = Real(rows[j][k]);
+}
+
+template <class Real>
+void pad(Threads<Real>& t) {
+  while (t.start.size() % 8) {
+    for (std::vector<Real>* values :
+         {&t.start, &t.span, &t.node, &t.flat, &t.inverse_span, &t.along_x, &t.eta2, &t.eta2_minus_1,
+          &t.surface_exponent, &t.surface_norm, &t.volume_exponent, &t.volume_norm, &t.isotropic})
+      values->push_back(values->back());
+    t.weight.push_back(0);
+  }
+  t.count = int(t.start.size());
+}
+
+template <class Real>
+Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
+  Threads<Real> threads;
+  for (int family = 0; family < 2; ++family) threads.slope_from[family] = 10, threads.slope_to[family] = -10;
+  add_families(threads, look, warp, weft);
+  if (threads.start.empty()) throw InputError("the look has no threads: both coverages are 0");
+  if (threads.start.size() + 8 > most_tangents)
+    throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible",
+                                 threads.start.size(), most_tangents - 8),
+                     "widen gamma_s_deg or gamma_v_deg, or give the curve fewer sloping pieces");
+  pad(threads);
+  for (int family = 0; family < 2; ++family) {
+    // |psi| stays a quarter turn away from every sloping offset: tan(pi/2 - largest offset), infinite without slopes.
+    const double largest = std::max(-double(threads.slope_from[family]), double(threads.slope_to[family]));
+    const bool slopes = threads.slope_from[family] <= threads.slope_to[family];
+    threads.clip_free[family] = slopes ? Real(std::tan(std::max(std::numbers::pi / 2 - largest, 0.0)))
+                                       : std::numeric_limits<Real>::max();
+  }
+  const double sigma = look.masking_width_deg * std::numbers::pi / 180;
+  threads.masking_exponent = Real(2 / (sigma * sigma));
+  threads.gap = Real(std::max(0.0, 1.0 - double(look.warp.coverage) - double(look.weft.coverage)));
+  if (threads.gap < Real(1e-6)) threads.gap = 0;  // .9 + .1 is 1
+  return threads;
+}
+
+}  // namespace
+
+template <class Real>
+Threads<Real> compile_threads(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
+  Threads<Real> threads = compile_curves<Real>(look, warp, weft);
+  constexpr double panel = grazing_panel_deg * std::numbers::pi / 180;
+  const std::vector<Tangent> fine_warp = cut_panels(warp, panel), fine_weft = cut_panels(weft, panel);
+  const size_t count = fine_warp.size() + fine_weft.size();
+  if (count > warp.size() + weft.size() && count + 8 <= most_tangents)
+    threads.grazing.push_back(compile_curves<Real>(look, fine_warp, fine_weft));
+  return threads;
+}
+
+template Threads<float> compile_threads(const Look&, const std::vector<Tangent>&, const std::vector<Tangent>&);
+template Threads<double> compile_threads(const Look&, const std::vector<Tangent>&, const std::vector<Tangent>&);
+
+}  // namespace sateen
