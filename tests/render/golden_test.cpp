@@ -49,22 +49,33 @@ Scene& stage() {
   return scene;
 }
 
-/// [block][channel] of the mean and of the mean square of the pixels. Squares are products of two independent batches:
+/// The pixels of a part of the picture: its blocks row by row, and last the whole, which small changes show in.
+struct Part {
+  int x0, y0, width, height;
+};
+constexpr int parts = blocks + 1;
+Part part(int i) {
+  if (i == blocks) return {0, 0, width, height};
+  constexpr int across = width / block_width;
+  return {i % across * block_width, i / across * block_height, block_width, block_height};
+}
+
+/// [part][channel] of the mean and of the mean square of the pixels. Squares are products of two independent batches:
 /// free of the noise of either, so that they do not depend on how it was sampled.
 struct Golden {
-  std::vector<Batches> means = std::vector<Batches>(blocks * 3), squares = std::vector<Batches>(blocks * 3);
+  std::vector<Batches> means = std::vector<Batches>(parts * 3), squares = std::vector<Batches>(parts * 3);
 };
 
 Golden measure(const std::string& name) {
   static const ColorManager colors("built-in");
   const ToWorking to_working = [&](const Color& c, const std::string& space) { return colors.to_working(c, space); };
-  FabricParts parts;
-  parts.threads = 2;
+  FabricParts compiled;
+  compiled.threads = 2;
   Scene& scene = stage();
   const Look look = read_look(look_path(name));
-  scene.front = compile_fabric(look, to_working, parts);
+  scene.front = compile_fabric(look, to_working, compiled);
   scene.back.reset();
-  if (!look.back.empty()) scene.back = compile_fabric(read_back(look), to_working, parts);
+  if (!look.back.empty()) scene.back = compile_fabric(read_back(look), to_working, compiled);
   scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
   Golden golden;
   std::vector<Color> before;
@@ -75,18 +86,18 @@ Golden measure(const std::string& name) {
     EXPECT_EQ(render(scene, settings, film).rays.non_finite, 0) << name;
     std::vector<Color> now;
     for (const FilmPixel& pixel : film.pixels) now.push_back(pixel_mean(pixel));
-    for (int block = 0; block < blocks; ++block)
+    for (int i = 0; i < parts; ++i)
       for (int c = 0; c < 3; ++c) {
         double sum = 0, product = 0;
-        const int x0 = block % (width / block_width) * block_width, y0 = block / (width / block_width) * block_height;
-        for (int y = y0; y < y0 + block_height; ++y)
-          for (int x = x0; x < x0 + block_width; ++x) {
-            const size_t i = size_t(y * width + x);
-            sum += double(now[i][c]);
-            if (b % 2) product += double(now[i][c]) * before[i][c];
+        const Part p = part(i);
+        for (int y = p.y0; y < p.y0 + p.height; ++y)
+          for (int x = p.x0; x < p.x0 + p.width; ++x) {
+            const size_t at = size_t(y * width + x);
+            sum += double(now[at][c]);
+            if (b % 2) product += double(now[at][c]) * before[at][c];
           }
-        golden.means[size_t(block * 3 + c)].add(sum / (block_width * block_height));
-        if (b % 2) golden.squares[size_t(block * 3 + c)].add(product / (block_width * block_height));
+        golden.means[size_t(i * 3 + c)].add(sum / (p.width * p.height));
+        if (b % 2) golden.squares[size_t(i * 3 + c)].add(product / (p.width * p.height));
       }
     before = now;
   }
@@ -105,7 +116,7 @@ void write_golden(const std::string& look, const Golden& golden) {
   fs::create_directories(golden_path(look).parent_path());
   nlohmann::ordered_json out;
   out["what"] = fmt::format("drape at level 1, studio_softboxes, {} x {} pixels in blocks of {} x {}, {} batches; of "
-                            "every block and channel [value, standard error]",
+                            "every block, then the whole, and every channel [value, standard error]",
                             width, height, block_width, block_height, batches);
   out["means"] = to_json(golden.means);
   out["squares"] = to_json(golden.squares);
@@ -136,7 +147,7 @@ void expect_like(const std::vector<Batches>& found, const std::vector<Batches>& 
   for (size_t i = 0; i < found.size(); ++i)
     if (const double d = std::abs(difference_deviate(found[i], kept[i])); d > worst) worst = d, where = i;
   const Batches &f = found[where], &k = kept[where];
-  EXPECT_LT(worst, bound) << what << ", block " << where / 3 << ", channel " << where % 3 << ": " << f.mean << " +- "
+  EXPECT_LT(worst, bound) << what << ", part " << where / 3 << ", channel " << where % 3 << ": " << f.mean << " +- "
                           << std::sqrt(f.variance_of_mean()) << ", kept " << k.mean << " +- "
                           << std::sqrt(k.variance_of_mean()) << "\n"
                           << again;
@@ -145,7 +156,7 @@ void expect_like(const std::vector<Batches>& found, const std::vector<Batches>& 
 TEST(GoldenPictures, OfAllLooksAreWhatTheyWere) {
   const std::vector<std::string> names = look_names();
   const bool update = std::getenv("SATEEN_UPDATE_GOLDEN") != nullptr;
-  const double bound = sidak_deviate(1e-3, double(names.size()) * blocks * 3 * 2);
+  const double bound = sidak_deviate(1e-3, double(names.size()) * parts * 3 * 2);
   for (const std::string& name : names) {
     if (!update && !fs::exists(golden_path(name))) {
       ADD_FAILURE() << "looks/" << name << ".json has no golden picture: " << again;
