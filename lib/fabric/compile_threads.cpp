@@ -29,7 +29,8 @@ size_t count_panel_nodes(const std::vector<Tangent>& tangents) {
 }
 
 template <class Real>
-void add_tangents(Threads<Real>& out, const ThreadFamily& family, bool warp, const Tangent* begin, const Tangent* end) {
+void add_tangents(Threads<Real>& out, const ThreadFamily& family, bool warp, const Tangent* begin,
+                  const Tangent* end) {
   constexpr double to_radians = std::numbers::pi / 180;
   const double gamma_s = family.gamma_s_deg * to_radians, gamma_v = family.gamma_v_deg * to_radians;
   const double root = std::sqrt(2 * std::numbers::pi), eta = family.eta, k_d = family.k_d;
@@ -104,16 +105,16 @@ Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp,
   add_families(threads, look, warp, weft);
   if (threads.start.empty()) throw InputError("the look has no threads: both coverages are 0");
   if (threads.start.size() + 8 > most_tangents)
-    throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible",
-                                 threads.start.size(), most_tangents - 8),
+    throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible", threads.start.size(),
+                                 most_tangents - 8),
                      "widen gamma_s_deg or gamma_v_deg, or give the curve fewer sloping pieces");
   pad(threads);
   for (int family = 0; family < 2; ++family) {
     // |psi| stays a quarter turn away from every sloping offset: tan(pi/2 - largest offset), infinite without slopes.
     const double largest = std::max(-double(threads.slope_from[family]), double(threads.slope_to[family]));
     const bool slopes = threads.slope_from[family] <= threads.slope_to[family];
-    threads.clip_free[family] = slopes ? Real(std::tan(std::max(std::numbers::pi / 2 - largest, 0.0)))
-                                       : std::numeric_limits<Real>::max();
+    threads.clip_free[family] =
+        slopes ? Real(std::tan(std::max(std::numbers::pi / 2 - largest, 0.0))) : std::numeric_limits<Real>::max();
   }
   const double sigma = look.masking_width_deg * std::numbers::pi / 180;
   threads.masking_exponent = Real(2 / (sigma * sigma));

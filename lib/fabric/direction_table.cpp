@@ -14,15 +14,16 @@ namespace {
 constexpr int theta_cells = DirectionTable::theta_cells, phi_cells = DirectionTable::phi_cells;
 constexpr int cells = DirectionTable::cells, half_columns = phi_cells / 2;
 constexpr double half_pi = 1.57079632679489662;
-constexpr double floor_share = 0.02;   // of the mean, so that every direction can be drawn; 5 % cost 0.009 of variance
+constexpr double floor_share = 0.02;  // of the mean, so that every direction can be drawn; 5 % cost 0.009 of variance
 constexpr double crowding_view = 0.08;  // of phi_r towards the horizon; variance of grazing views, measured
 constexpr double crowding_cell = 0.15;  // of phi towards the horizon
-constexpr double rim_deg[] = {0, 0.005, 0.08, 0.8};  // edges over the horizon; without them weights of 25 times the mean
+constexpr double rim_deg[] = {0, 0.005, 0.08,
+                              0.8};  // edges over the horizon; without them weights of 25 times the mean
 constexpr int rim_cells = 3;
 constexpr double neighbour_share = 0.2;  // of the larger neighbour in theta: a turned slice is off by part of a cell
 constexpr int half_s_nodes = 12, half_phi_nodes = 11;  // s of 11: velvet at 89 degrees has 1.6 times the variance
-constexpr int guides = 128;            // shares of the height; behind the rim no column is narrower
-constexpr double outermost = 0.998;    // of t: nodes stay off the horizon itself, where F is 0
+constexpr int guides = 128;                            // shares of the height; behind the rim no column is narrower
+constexpr double outermost = 0.998;                    // of t: nodes stay off the horizon itself, where F is 0
 
 // t in [-1, 1] to an angle in [-pi/2, pi/2] with steps that shrink towards the ends, and back.
 double crowded_angle(double t, double crowding) {
@@ -67,14 +68,16 @@ double height_edge(int b) {
 }  // namespace
 
 /// Columns of every slice in the height pi/2 - |phi|, which a float states exactly where it matters, at the horizon.
-/// Column b of y < 0 lies between the heights edge[b] and edge[b + 1]; the columns of y > 0 follow from the zenith down.
+/// Column b of y < 0 lies between the heights edge[b] and edge[b + 1]; the columns of y > 0 follow from the zenith
+/// down.
 struct ColumnGrid {
   std::array<float, half_columns + 1> edge;
   std::array<float, half_columns> ceiling;       ///< edge[b + 1]; above every height for the last
   std::array<float, half_columns> inverse_area;  ///< 1 / (d theta d phi) of a cell times 2^-32
   std::array<std::uint8_t, guides + 1> guide;    ///< first column that an equal share of the height meets
 
-  /// The edges as stored decide, so that the density is exactly the one drawn from. No share meets more than two edges.
+  /// The edges as stored decide, so that the density is exactly the one drawn from. No share meets more than two
+  /// edges.
   int cell(float height) const {
     int b = guide[size_t(std::min(int(height * float(guides / half_pi)), guides))];
     b += height >= ceiling[size_t(b)] ? 1 : 0;
@@ -109,21 +112,23 @@ struct SliceMaker {
 
   double f_cos_theta(double theta, double side, double height) const {
     const double c = std::cos(theta);
-    const ThreadSums<float> s = scatter<float>(threads, view, float(std::sin(theta)), float(side * c * std::cos(height)),
-                                               float(c * std::sin(height)));
+    const ThreadSums<float> s = scatter<float>(threads, view, float(std::sin(theta)),
+                                               float(side * c * std::cos(height)), float(c * std::sin(height)));
     return c * (double(s.surface[0]) + s.surface[1] + volume_warp * s.volume[0] + volume_weft * s.volume[1]);
   }
 
   void make(double theta_r, double phi_r, std::uint32_t* cumulative) {
     const double c = std::cos(theta_r);
-    prepare_view<float>(threads, float(std::sin(theta_r)), float(c * std::sin(phi_r)), float(c * std::cos(phi_r)), view);
+    prepare_view<float>(threads, float(std::sin(theta_r)), float(c * std::sin(phi_r)), float(c * std::cos(phi_r)),
+                        view);
     const ColumnGrid& grid = column_grid();
     std::array<double, cells> value, mass;
     const double d_theta = 2 * half_pi / theta_cells;
     for (int a = 0; a < theta_cells; ++a)
       for (int column = 0; column < phi_cells; ++column) {
         const int b = std::min(column, phi_cells - 1 - column);
-        const double theta = -half_pi + a * d_theta, from = grid.edge[size_t(b)], d_phi = grid.edge[size_t(b) + 1] - from;
+        const double theta = -half_pi + a * d_theta, from = grid.edge[size_t(b)],
+                     d_phi = grid.edge[size_t(b) + 1] - from;
         const double side = column < half_columns ? -1 : 1;
         // In the rim F falls like the inverse height: two heights that give a decade's mean.
         const double low = b < rim_cells ? 0.12 : 0.25, high = b < rim_cells ? 0.6 : 0.75;
@@ -138,7 +143,8 @@ struct SliceMaker {
     };
     double total = 0;
     for (size_t k = 0; k < cells; ++k) {
-      const double below = k >= phi_cells ? value[k - phi_cells] : 0, above = k + phi_cells < cells ? value[k + phi_cells] : 0;
+      const double below = k >= phi_cells ? value[k - phi_cells] : 0,
+                   above = k + phi_cells < cells ? value[k + phi_cells] : 0;
       mass[k] = std::max(value[k], neighbour_share * std::max(below, above)) * area(k % phi_cells);
       total += mass[k];
     }
@@ -194,14 +200,14 @@ DirectionTable tabulate_directions(const Threads<float>& threads, float volume_w
   table.cumulative.resize(size_t(nodes) * (cells + 1));
   table.row_start.resize(size_t(nodes) * theta_cells);
   parallel_for(nodes, threads_used, [&](int node) {
-    const double phi =
-        crowded_angle(node_place(node % table.phi_nodes, table.phi_nodes, mirror_y), crowding_view);
+    const double phi = crowded_angle(node_place(node % table.phi_nodes, table.phi_nodes, mirror_y), crowding_view);
     const double theta = theta_of(node_place(node / table.phi_nodes, table.s_nodes, mirror_x), phi);
     table.node_theta[node] = float(theta);
     SliceMaker maker{threads, volume_warp, volume_weft, {}};
     std::uint32_t* cumulative = &table.cumulative[size_t(node) * (cells + 1)];
     maker.make(theta, phi, cumulative);
-    for (int a = 0; a < theta_cells; ++a) table.row_start[size_t(node) * theta_cells + size_t(a)] = cumulative[a * phi_cells];
+    for (int a = 0; a < theta_cells; ++a)
+      table.row_start[size_t(node) * theta_cells + size_t(a)] = cumulative[a * phi_cells];
   });
   return table;
 }

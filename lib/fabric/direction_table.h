@@ -8,15 +8,18 @@
 
 namespace sateen {
 
-/// F of one look tabulated as a density of directions (cloth-model.md section 6), for sampling and as a cheap stand-in
-/// for F. A slice of directions for every view node, laid out in the warp's coordinates theta = asin(w.x),
+/// F of one look tabulated as a density of directions (cloth-model.md section 6), for sampling and as a cheap
+/// stand-in for F. A slice of directions for every view node, laid out in the warp's coordinates theta = asin(w.x),
 /// phi = atan2(w.y, w.z), where the lobes run along the grid; inside a cell uniform in theta and phi.
 ///
 /// Four things make a small table enough, all measured (docs/numbers.md):
-/// - view nodes lie in s = (theta_r + psi_r)/pi with psi_r = atan2(w.x, w.z), and in phi_r crowded towards the horizon:
+/// - view nodes lie in s = (theta_r + psi_r)/pi with psi_r = atan2(w.x, w.z), and in phi_r crowded towards the
+/// horizon:
 ///   Q turns with psi_r, the lobes with theta_r, and s resolves both;
-/// - a slice is turned about by theta_r - theta_node before use, so that the lobes of neighbouring views lie on each other;
-/// - the outer three columns on either side are 0.005, 0.075 and 0.72 degrees wide: where Q vanishes towards the horizon,
+/// - a slice is turned about by theta_r - theta_node before use, so that the lobes of neighbouring views lie on each
+/// other;
+/// - the outer three columns on either side are 0.005, 0.075 and 0.72 degrees wide: where Q vanishes towards the
+/// horizon,
 ///   F goes like the inverse of the height over it;
 /// - a look that is its own mirror image in x or in y needs half the views in that axis.
 struct DirectionTable {
@@ -24,9 +27,9 @@ struct DirectionTable {
 
   bool mirror_x = false, mirror_y = false;  ///< tabulated for w.x >= 0 or w.y >= 0 alone
   int s_nodes = 0, phi_nodes = 0;
-  std::vector<float> node_theta;           ///< theta of view node [s][phi]
-  std::vector<std::uint32_t> cumulative;   ///< [s][phi][cells + 1], 2^32 scale; the last entry, 2^32, is stored as 0
-  std::vector<std::uint32_t> row_start;    ///< [s][phi][theta_cells]: every phi_cells-th of those, side by side
+  std::vector<float> node_theta;          ///< theta of view node [s][phi]
+  std::vector<std::uint32_t> cumulative;  ///< [s][phi][cells + 1], 2^32 scale; the last entry, 2^32, is stored as 0
+  std::vector<std::uint32_t> row_start;   ///< [s][phi][theta_cells]: every phi_cells-th of those, side by side
 };
 
 struct ColumnGrid;
@@ -36,17 +39,18 @@ struct TableView {
   const ColumnGrid* columns = nullptr;  ///< the same for every table
   const std::uint32_t* slice[4];
   const std::uint32_t* row_start[4];
-  float share[4];       ///< sum to 1
-  float turn[4];        ///< theta of the view minus theta of the node [radians]
+  float share[4];  ///< sum to 1
+  float turn[4];   ///< theta of the view minus theta of the node [radians]
   float flip_x = 1, flip_y = 1;
 };
 
 /// Tabulates S_0 + S_1 + a_0 V_0 + a_1 V_1 with the volume colours' means a. Deterministic.
-DirectionTable tabulate_directions(const Threads<float>& threads, float volume_warp, float volume_weft,
-                                   bool mirror_x, bool mirror_y, int threads_used = 1);
+DirectionTable tabulate_directions(const Threads<float>& threads, float volume_warp, float volume_weft, bool mirror_x,
+                                   bool mirror_y, int threads_used = 1);
 
-/// Heights [radians] over the horizon of the columns' edges, 0 to pi/2, on either side of the warp. Rows are theta_cells equal
-/// parts of theta + turn, wrapped. Inside a cell the density times cos theta is constant for each of the four slices.
+/// Heights [radians] over the horizon of the columns' edges, 0 to pi/2, on either side of the warp. Rows are
+/// theta_cells equal parts of theta + turn, wrapped. Inside a cell the density times cos theta is constant for each
+/// of the four slices.
 std::vector<float> column_heights();
 
 /// For a unit wo with wo.z > 0.

@@ -58,7 +58,8 @@ std::vector<Tangent> tangent_quadrature(const std::vector<float>& offsets_deg, c
         tangents.push_back({start, start, 0, share, 0, 0});
       continue;
     }
-    const int panels = std::max(1, int(std::ceil((end - start) / std::min(panel_gammas * gamma, panel_radians) - 1e-6)));
+    const int panels =
+        std::max(1, int(std::ceil((end - start) / std::min(panel_gammas * gamma, panel_radians) - 1e-6)));
     for (int k = 0; k < panels; ++k)
       for (const QuadratureNode& n : rule)
         tangents.push_back({start, end, (k + n.position) / panels, share * n.weight / panels, double(k) / panels,

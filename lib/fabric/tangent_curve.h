@@ -5,38 +5,40 @@
 namespace sateen {
 
 /// A thread's tangent curve as the continuous distribution that it is (cloth-model.md section 3): offsets
-/// o_0 ... o_k in degrees, lengths l_0 ... l_{k-1}. Segment i has probability l_i / sum(l) and, within it, the offset is
-/// uniform between o_i and o_{i+1}; equal neighbours are one tangent, a length of 0 is a jump.
+/// o_0 ... o_k in degrees, lengths l_0 ... l_{k-1}. Segment i has probability l_i / sum(l) and, within it, the offset
+/// is uniform between o_i and o_{i+1}; equal neighbours are one tangent, a length of 0 is a jump.
 
 /// One tangent of the quadrature: node `node` of the segment from `start` to `end`. The segment is kept because a
 /// direction may see only a part of it, and the nodes then gather in that part.
 struct Tangent {
-  double start = 0, end = 0;  ///< the segment's offsets [radians], start <= end; equal for a flat piece
-  double node = 0;            ///< place within the segment, 0 to 1
-  double weight = 0;          ///< all weights of a curve sum to 1
+  double start = 0, end = 0;            ///< the segment's offsets [radians], start <= end; equal for a flat piece
+  double node = 0;                      ///< place within the segment, 0 to 1
+  double weight = 0;                    ///< all weights of a curve sum to 1
   double panel_from = 0, panel_to = 0;  ///< ends within the segment of the panel of Gauss-Legendre nodes, 0 to 1
 
   double offset() const { return start + (end - start) * node; }
 };
 
-struct QuadratureNode { double position = 0, weight = 0; };
+struct QuadratureNode {
+  double position = 0, weight = 0;
+};
 
 /// Gauss-Legendre nodes and weights on [0, 1].
 std::vector<QuadratureNode> gauss_legendre(int count);
 
 /// Quadrature of the curve for lobes of width `gamma` [radians]: each sloping segment is cut into panels of at most
-/// `panel_gammas` widths and `panel_radians`, and each panel gets `nodes` Gauss-Legendre nodes. Panel after panel, then the flat pieces,
-/// those of one offset merged.
+/// `panel_gammas` widths and `panel_radians`, and each panel gets `nodes` Gauss-Legendre nodes. Panel after panel,
+/// then the flat pieces, those of one offset merged.
 std::vector<Tangent> tangent_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
                                         double gamma, double panel_gammas, double panel_radians, int nodes);
 
 /// Gauss-Legendre nodes of a panel that the renderer uses: one block of lanes.
 inline constexpr int panel_nodes = 8;
 
-/// The quadrature that the renderer uses: its error against a fine one is below 1e-3 of the peak of F at that view for
-/// every look of the project (tests/fabric/precision_test.cpp; 1e-2 where a direction is within 0.6 degrees of the
-/// horizon). Panels of 8 gamma, of 1.25 sigma (`masking_width` [radians], the width of u in M and P) and of 25 degrees at
-/// most: the lobe, the masking and the angles must each look like a polynomial within a panel.
+/// The quadrature that the renderer uses: its error against a fine one is below 1e-3 of the peak of F at that view
+/// for every look of the project (tests/fabric/precision_test.cpp; 1e-2 where a direction is within 0.6 degrees of
+/// the horizon). Panels of 8 gamma, of 1.25 sigma (`masking_width` [radians], the width of u in M and P) and of 25
+/// degrees at most: the lobe, the masking and the angles must each look like a polynomial within a panel.
 std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
                                        double gamma, double masking_width);
 

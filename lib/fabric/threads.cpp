@@ -17,10 +17,18 @@ using Vector = std::conditional_t<std::is_same_v<Real, float>, Lanes, double>;
 template <class Real>
 constexpr int width = std::is_same_v<Real, float> ? Lanes::width : 1;
 
-inline Lanes load(const float* p) { return Lanes::load(p); }
-inline double load(const double* p) { return *p; }
-inline void store(float* p, Lanes v) { v.store(p); }
-inline void store(double* p, double v) { *p = v; }
+inline Lanes load(const float* p) {
+  return Lanes::load(p);
+}
+inline double load(const double* p) {
+  return *p;
+}
+inline void store(float* p, Lanes v) {
+  v.store(p);
+}
+inline void store(double* p, double v) {
+  *p = v;
+}
 
 // cos theta below 1e-12 is far below what a unit direction in float can state (6e-8). The floor only keeps end-on
 // threads finite until M, which is 0 or finite there, decides the limit.
@@ -81,8 +89,12 @@ void fill_block(const Threads<Real>& t, int block, ThreadView<Real>& view) {
 }
 
 /// A pair of numbers, of warp and weft: in the first two lanes, or number k alone.
-inline Lanes both(float warp, float weft, int) { return Lanes::of(warp, weft, 1, 1); }
-inline double both(double warp, double weft, int k) { return k == 0 ? warp : weft; }
+inline Lanes both(float warp, float weft, int) {
+  return Lanes::of(warp, weft, 1, 1);
+}
+inline double both(double warp, double weft, int k) {
+  return k == 0 ? warp : weft;
+}
 
 /// What a light direction has in common for all tangents of a family.
 template <class Real>
@@ -164,8 +176,7 @@ ThreadSums<Real> scatter(const Threads<Real>& threads, const ThreadView<Real>& v
   const Real along[2] = {x, y};
   const bool other = view_of_wo.threads != &t;
   bool clipped = other;
-  for (int family = 0; family < 2; ++family)
-    clipped = clipped || std::abs(along[family]) > t.clip_free[family] * z;
+  for (int family = 0; family < 2; ++family) clipped = clipped || std::abs(along[family]) > t.clip_free[family] * z;
   if (clipped) {
     std::copy(view_of_wo.wo, view_of_wo.wo + 3, gathered.wo);
     for (int family = 0; family < 2; ++family) {
@@ -205,7 +216,7 @@ ThreadSums<Real> scatter(const Threads<Real>& threads, const ThreadView<Real>& v
       projected_kink = (terms.projected_kink[family] - view.panel_start[block]) * view.panel_inverse[block];
       side = terms.side[family];
     }
-    const bool kink_in_m = masking_kink > 0 && masking_kink < 1, kink_in_p = projected_kink > 0 && projected_kink < 1;
+    const bool kink_in_m = masking_kink > 0 && masking_kink<1, kink_in_p = projected_kink> 0 && projected_kink < 1;
     for (int k = block * 8; k < block * 8 + 8; k += width<Real>) {
       const V is_warp = load(&t.along_x[k]);
       const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
@@ -273,7 +284,8 @@ ThreadSums<Real> scatter(const Threads<Real>& threads, const ThreadView<Real>& v
       const V g_v = fma(load(&t.volume_norm[k]), exp_negative(zero - theta_h2 * load(&t.volume_exponent[k])),
                         load(&t.isotropic[k]));
 
-      // cos theta_i / cos^2 theta_d, then the thread's two terms; V keeps 1 / (cos theta_i + cos theta_r) beside F_t^2.
+      // cos theta_i / cos^2 theta_d, then the thread's two terms; V keeps 1 / (cos theta_i + cos theta_r) beside
+      // F_t^2.
       const V inverse_sum = one / (four_cos2_d * cos_sum);
       const V common = visible * cos_i * V(Real(4)) * (inverse_sum * cos_sum);
       const V surface = common * reflected * h * g_s;

@@ -188,7 +188,8 @@ TEST(Cloth, GapsDarkenByQAlone) {
     const Vec3d wo = exact(random_direction(random)), wi = exact(random_direction(random));
     const double offset = closed.warp.offsets_deg[0] * M_PI / 180, sigma = closed.masking_width_deg * M_PI / 180;
     const auto psi = [&](const Vec3d& w) { return std::atan2(w.x, w.z) + offset; };
-    const double p_i = std::max(std::cos(psi(wi)), 0.0), p_r = std::max(std::cos(psi(wo)), 0.0), d = psi(wi) - psi(wo);
+    const double p_i = std::max(std::cos(psi(wi)), 0.0), p_r = std::max(std::cos(psi(wo)), 0.0),
+                 d = psi(wi) - psi(wo);
     const double u = std::exp(-d * d / (2 * sigma * sigma)), P = (1 - u) * p_i * p_r + u * std::min(p_i, p_r);
     const Pair a = scatter_pair(closed, wo, wi), b = scatter_pair(open, wo, wi);
     const double ratio = 0.6 * P / (0.6 * P + 0.4 * wo.z);
@@ -221,14 +222,17 @@ TEST(Masking, CorrelatesOverTheWidthThatTheLookGives) {
   Look narrow = single_tangent(random, 0), wide = narrow;
   narrow.masking_width_deg = 5;
   wide.masking_width_deg = 60;
-  // 30 degrees apart around the thread, nothing is correlated at 5 degrees: M is cos 60 cos 30; at 60 degrees it is near cos 60.
+  // 30 degrees apart around the thread, nothing is correlated at 5 degrees: M is cos 60 cos 30; at 60 degrees it is
+  // near cos 60.
   const Vec3d wo = exact(direction(60, 90)), wi = exact(direction(30, 90));
   const double u = std::exp(-0.125), independent = 0.5 * std::sqrt(0.75);
   EXPECT_NEAR(scatter_pair(wide, wo, wi).volume / scatter_pair(narrow, wo, wi).volume,
               ((1 - u) * independent + u * 0.5) / independent, 1e-5);
 }
 
-Color furnace(const Look& look, const Vec3& wo) { return albedo_color(compile_fabric(look, same_space, {false, 1}), wo); }
+Color furnace(const Look& look, const Vec3& wo) {
+  return albedo_color(compile_fabric(look, same_space, {false, 1}), wo);
+}
 
 TEST(Albedo, IsLinearInA) {
   Look look = look_named("silk_shot");
@@ -251,8 +255,8 @@ TEST(Albedo, IsWhatThePaperOfTheModelSays) {
     const Color own = furnace(look, Vec3(0, 0, 1));
     look.warp.A.value = look.weft.A.value = Color(1, 1, 1);
     const float one = furnace(look, Vec3(0, 0, 1)).x;
-    printf("furnace of %-32s %.3f %.3f %.3f at normal view, %.2f with A = 1\n", name.c_str(), double(own.x), double(own.y),
-           double(own.z), double(one));
+    printf("furnace of %-32s %.3f %.3f %.3f at normal view, %.2f with A = 1\n", name.c_str(), double(own.x),
+           double(own.y), double(own.z), double(one));
     if (name == "linen_plain") {
       EXPECT_NEAR(one, 1, 0.2);
     } else if (name.find("velvet") != 0) {
@@ -288,10 +292,12 @@ std::string error_for(const Color& color) {
 
 TEST(Color, OutOfReachSaysWhatIsReachable) {
   const std::string dark = error_for(Color(0, 0.2f, 0.2f)), grey = error_for(Color(0.3f, 0.3f, 0.3f));
-  EXPECT_TRUE(std::regex_search(dark, std::regex("weft\\.color is \\(0, 0\\.2, 0\\.2\\) in the working space, reachable "
-                                                "is 0\\.1\\d+ to [12]\\.\\d+ in every channel")))
+  EXPECT_TRUE(
+      std::regex_search(dark, std::regex("weft\\.color is \\(0, 0\\.2, 0\\.2\\) in the working space, reachable "
+                                         "is 0\\.1\\d+ to [12]\\.\\d+ in every channel")))
       << dark;
-  EXPECT_NE(dark.find("the surface lobe alone is brighter: raise the colour, or lower eta"), std::string::npos) << dark;
+  EXPECT_NE(dark.find("the surface lobe alone is brighter: raise the colour, or lower eta"), std::string::npos)
+      << dark;
   EXPECT_EQ(grey, "accepted");
   Look linen = look_named("natural_linen");
   linen.warp.color->value = Color(0.99f, 0.99f, 0.99f);

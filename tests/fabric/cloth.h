@@ -9,20 +9,27 @@
 #include <string>
 #include <vector>
 
-#include "fabric/fabric.h"
 #include "base/error.h"
+#include "fabric/fabric.h"
 #include "look/read.h"
 
 // What the tests of the cloth model share: the looks of the project, compiled once, and plain random numbers.
 
 namespace sateen::test {
 
-inline bool long_tests() { return std::getenv("SATEEN_LONG_TESTS") != nullptr; }
+inline bool long_tests() {
+  return std::getenv("SATEEN_LONG_TESTS") != nullptr;
+}
 
 /// Names of the seven presets of Table II.
 inline const std::vector<std::string>& presets() {
-  static const std::vector<std::string> names{"linen_plain", "silk_crepe_de_chine", "polyester_satin_charmeuse",
-                                              "polyester_satin_charmeuse_back", "silk_shot", "velvet", "velvet_red"};
+  static const std::vector<std::string> names{"linen_plain",
+                                              "silk_crepe_de_chine",
+                                              "polyester_satin_charmeuse",
+                                              "polyester_satin_charmeuse_back",
+                                              "silk_shot",
+                                              "velvet",
+                                              "velvet_red"};
   return names;
 }
 

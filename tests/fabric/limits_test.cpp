@@ -1,5 +1,5 @@
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <immintrin.h>
 
 #include <algorithm>
@@ -19,7 +19,9 @@ struct Denormals {
   ~Denormals() { _mm_setcsr(before); }
 };
 
-bool good(double x) { return std::isfinite(x) && x >= 0; }
+bool good(double x) {
+  return std::isfinite(x) && x >= 0;
+}
 bool good(const ThreadSums<float>& s) {
   return good(s.surface[0]) && good(s.surface[1]) && good(s.volume[0]) && good(s.volume[1]);
 }
@@ -30,12 +32,24 @@ Vec3 adversarial(Random& random, const Vec3& other) {
   const auto small = [&] { return tiny[random.below(10)] * (random.below(2) ? 1.0f : -1.0f); };
   Vec3 w;
   switch (random.below(8)) {
-    case 0: w = Vec3(1, small(), std::abs(small())); break;   // along the warp, at the horizon
-    case 1: w = Vec3(small(), -1, std::abs(small())); break;  // along the weft
-    case 2: w = Vec3(small(), small(), 1); break;
-    case 3: w = other; break;
-    case 4: w = Vec3(-other.x, -other.y, other.z); break;  // mirrored
-    case 5: w = -other; break;
+    case 0:
+      w = Vec3(1, small(), std::abs(small()));
+      break;  // along the warp, at the horizon
+    case 1:
+      w = Vec3(small(), -1, std::abs(small()));
+      break;  // along the weft
+    case 2:
+      w = Vec3(small(), small(), 1);
+      break;
+    case 3:
+      w = other;
+      break;
+    case 4:
+      w = Vec3(-other.x, -other.y, other.z);
+      break;  // mirrored
+    case 5:
+      w = -other;
+      break;
     case 6: {  // along a tilted thread, or a few units in the last place beside it
       const double tilt = random.below(2) ? random.between(0, M_PI) : M_PI / 36 * random.below(37);
       float c = float(std::cos(tilt)), s = float(std::sin(tilt));
@@ -43,7 +57,8 @@ Vec3 adversarial(Random& random, const Vec3& other) {
       w = random.below(2) ? Vec3(c, small(), s) : Vec3(small(), c, s);
       break;
     }
-    default: w = direction(90 - std::pow(10.0, random.between(-9, 0)), 90 * random.below(4) + random.between(-1e-3, 1e-3));
+    default:
+      w = direction(90 - std::pow(10.0, random.between(-9, 0)), 90 * random.below(4) + random.between(-1e-3, 1e-3));
   }
   return w;
 }
@@ -85,10 +100,11 @@ void torture(const Look& look, Random& random, int views, int lights, bool with_
         const Vec3 wi = k % 4 == 0 ? adversarial(random, wo) : torture_direction(random);
         const ThreadSums<float> s = evaluate_parts(*view, wi);
         const auto text = [&] {
-          return fmt::format("wo {} {} {:g} wi {} {} {:g}: S {} {} V {} {} pdf {}", wo.x, wo.y, wo.z, wi.x, wi.y, wi.z,
-                             s.surface[0], s.surface[1], s.volume[0], s.volume[1], pdf(*view, sampler, wi));
+          return fmt::format("wo {} {} {:g} wi {} {} {:g}: S {} {} V {} {} pdf {}", wo.x, wo.y, wo.z, wi.x, wi.y,
+                             wi.z, s.surface[0], s.surface[1], s.volume[0], s.volume[1], pdf(*view, sampler, wi));
         };
-        faults.check(good(s) && good(pdf(*view, sampler, wi)), good(s) && good(pdf(*view, sampler, wi)) ? "" : text());
+        faults.check(good(s) && good(pdf(*view, sampler, wi)),
+                     good(s) && good(pdf(*view, sampler, wi)) ? "" : text());
         if (!(wi.z > 0)) {
           EXPECT_EQ(s.surface[0] + s.volume[0] + s.surface[1] + s.volume[1], 0);
         }
@@ -102,9 +118,9 @@ void torture(const Look& look, Random& random, int views, int lights, bool with_
         const double length2 = double(dot(*drawn, *drawn));
         const bool fine = std::abs(length2 - 1) < 1e-5 && drawn->z > 0 && p > 0 && good(f) && good(p) && good(f / p);
         faults.check(fine, fine ? ""
-                                : fmt::format("{} drawn from {} {} {} {} {}: {} {} {:g}, f {} pdf {}",
-                                              int(sampler), u.choice, u.thread[0], u.thread[1], u.direction[0],
-                                              u.direction[1], drawn->x, drawn->y, drawn->z, f, p));
+                                : fmt::format("{} drawn from {} {} {} {} {}: {} {} {:g}, f {} pdf {}", int(sampler),
+                                              u.choice, u.thread[0], u.thread[1], u.direction[0], u.direction[1],
+                                              drawn->x, drawn->y, drawn->z, f, p));
       }
     }
   }
@@ -117,10 +133,11 @@ TEST(Limits, RandomLooksStayFiniteAndNotNegative) {
     Faults faults;
     const int looks = long_tests() ? 5000 : 1500;
     for (int i = 0; i < looks; ++i)
-      torture(random_look(random, i % 4 == 0), random, long_tests() ? 100 : 5, long_tests() ? 100 : 20, false, faults);
+      torture(random_look(random, i % 4 == 0), random, long_tests() ? 100 : 5, long_tests() ? 100 : 20, false,
+              faults);
     EXPECT_EQ(faults.bad, 0) << faults.first;
-    printf("limits, denormals %s: %ld checks of %d looks, %ld bad\n", denormals ? "kept" : "flushed", faults.evaluations,
-           looks, faults.bad);
+    printf("limits, denormals %s: %ld checks of %d looks, %ld bad\n", denormals ? "kept" : "flushed",
+           faults.evaluations, looks, faults.bad);
   }
 }
 

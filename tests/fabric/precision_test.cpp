@@ -41,8 +41,8 @@ Vec3 light_direction(Random& random, const Vec3& wo) {
   return random_direction(random);
 }
 
-// The curve many times as fine. 12 or 16 nodes know nothing of the renderer's correction for kinks and show what it is
-// worth; curves too long for that take more panels of 8.
+// The curve many times as fine. 12 or 16 nodes know nothing of the renderer's correction for kinks and show what it
+// is worth; curves too long for that take more panels of 8.
 std::optional<Threads<double>> reference(const Look& look) {
   for (const auto& [degrees, nodes] : {std::pair{1.2, 16}, {2.0, 12}, {4.0, 8}}) {
     try {
@@ -54,7 +54,8 @@ std::optional<Threads<double>> reference(const Look& look) {
   return std::nullopt;
 }
 
-// Largest error of the renderer's F over the peak of F at that view: of pairs above 0.6 degrees of the horizon, and below.
+// Largest error of the renderer's F over the peak of F at that view: of pairs above 0.6 degrees of the horizon, and
+// below.
 struct QuadratureError {
   double above = 0, below = 0;
 };
@@ -123,7 +124,8 @@ TEST(Quadrature, ErrorStaysSmallOverTheWholeLegalRange) {
 
 struct FloatErrors {
   double worst = 0;
-  long pairs = 0, above_1e3 = 0, off_horizon = 0, above_1e5 = 0;  ///< the last two from 0.6 degrees over the horizon up
+  long pairs = 0, above_1e3 = 0, off_horizon = 0,
+       above_1e5 = 0;  ///< the last two from 0.6 degrees over the horizon up
 };
 
 // Relative error below 1e-3, but for `slack` of the view's peak.
@@ -166,8 +168,9 @@ void compare_float(const Look& look, Random& random, int views, int lights, doub
   }
 }
 
-// Where nothing but the last hundredth of a degree of a segment faces wi, its cosine is a difference that a float loses
-// digits in: there alone, in at most one pair of 100,000, the error may pass 1e-3 of F, and never 1e-7 of the peak.
+// Where nothing but the last hundredth of a degree of a segment faces wi, its cosine is a difference that a float
+// loses digits in: there alone, in at most one pair of 100,000, the error may pass 1e-3 of F, and never 1e-7 of the
+// peak.
 TEST(FloatKernel, AgreesWithTheSameKernelInDouble) {
   Random random{13};
   FloatErrors all;
@@ -183,8 +186,8 @@ TEST(FloatKernel, AgreesWithTheSameKernelInDouble) {
   }
   EXPECT_LE(double(all.above_1e3), 1e-5 * double(all.pairs));
   EXPECT_LT(double(all.above_1e5), 1e-4 * double(all.off_horizon));
-  printf("float against double: %.4f %% of %ld pairs above 1e-5\n", 100.0 * double(all.above_1e5) / double(all.off_horizon),
-         all.off_horizon);
+  printf("float against double: %.4f %% of %ld pairs above 1e-5\n",
+         100.0 * double(all.above_1e5) / double(all.off_horizon), all.off_horizon);
 }
 
 TEST(FloatKernel, AgreesWithTheSameKernelInDoubleForRandomLooks) {

@@ -86,7 +86,8 @@ std::vector<double> expected_mass(const FabricView& view, FabricSampler sampler,
       if (sampler == FabricSampler::uniform)
         mass[a * phi_bins + b] = (std::sin(theta + M_PI / theta_bins) - std::sin(theta)) / (2 * phi_bins);
       else
-        mass[a * phi_bins + b] = integrate(density, theta, theta + M_PI / theta_bins, phi, phi + M_PI / phi_bins, tolerance);
+        mass[a * phi_bins + b] =
+            integrate(density, theta, theta + M_PI / theta_bins, phi, phi + M_PI / phi_bins, tolerance);
     }
   return mass;
 }
@@ -136,8 +137,8 @@ void chi_square_over(const std::vector<std::pair<const Look*, float>>& configura
         smallest = std::min(smallest, result.tail);
         EXPECT_FALSE(result.impossible) << look->name << " " << name_of(sampler);
         EXPECT_GT(result.tail, level) << name_of(sampler) << " of " << look->name << ", width " << width << ", view "
-                                      << v.polar_deg << " " << v.azimuth_deg << ": chi-square " << result.value << " of "
-                                      << result.freedom;
+                                      << v.polar_deg << " " << v.azimuth_deg << ": chi-square " << result.value
+                                      << " of " << result.freedom;
       }
   }
   printf("chi-square: %zu configurations of 3 samplers, smallest tail %.2e, level %.2e\n",
@@ -219,8 +220,9 @@ TEST(Samplers, DensitiesIntegrateToOne) {
           prepare_view(fabric, direction(views[i].polar_deg, views[i].azimuth_deg), sampler, *view);
           const double error = std::abs(total_mass(*view, sampler) - 1);
           worst[int(sampler)] = std::max(worst[int(sampler)], error);
-          EXPECT_LT(error, 2e-3) << name_of(sampler) << " of " << looks[k].name << ", width " << (w < 0 ? 0 : widths[w])
-                                 << ", view " << views[i].polar_deg << " " << views[i].azimuth_deg;
+          EXPECT_LT(error, 2e-3) << name_of(sampler) << " of " << looks[k].name << ", width "
+                                 << (w < 0 ? 0 : widths[w]) << ", view " << views[i].polar_deg << " "
+                                 << views[i].azimuth_deg;
         }
     }
   printf("mass of the densities: off by at most %.2e (talk), %.2e (table)\n", worst[1], worst[2]);

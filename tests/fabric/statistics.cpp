@@ -52,7 +52,9 @@ ChiSquare chi_square(const std::vector<double>& observed, const std::vector<doub
   return result;
 }
 
-double sidak_level(double alpha, double tests) { return -std::expm1(std::log1p(-alpha) / tests); }
+double sidak_level(double alpha, double tests) {
+  return -std::expm1(std::log1p(-alpha) / tests);
+}
 
 double sidak_deviate(double alpha, double tests) {
   const double tail = sidak_level(alpha, tests) / 2;
@@ -76,8 +78,10 @@ double integrate(const std::function<double(double, double)>& f, double x0, doub
   const double whole = rule(x0, x1, y0, y1);
   const double parts = rule(x0, xm, y0, ym) + rule(xm, x1, y0, ym) + rule(x0, xm, ym, y1) + rule(xm, x1, ym, y1);
   if (depth == 0 || std::abs(whole - parts) < tolerance) return parts + (parts - whole) / 3;
-  return integrate(f, x0, xm, y0, ym, tolerance / 2, depth - 1) + integrate(f, xm, x1, y0, ym, tolerance / 2, depth - 1) +
-         integrate(f, x0, xm, ym, y1, tolerance / 2, depth - 1) + integrate(f, xm, x1, ym, y1, tolerance / 2, depth - 1);
+  return integrate(f, x0, xm, y0, ym, tolerance / 2, depth - 1) +
+         integrate(f, xm, x1, y0, ym, tolerance / 2, depth - 1) +
+         integrate(f, x0, xm, ym, y1, tolerance / 2, depth - 1) +
+         integrate(f, xm, x1, ym, y1, tolerance / 2, depth - 1);
 }
 
 }  // namespace sateen::test

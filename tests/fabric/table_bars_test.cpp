@@ -54,7 +54,8 @@ TEST(DirectionTable, VarianceStaysBelowSixHundredthsOfUniformAtEveryView) {
           if (!long_tests() && !is_preset(look) && (quarter + int(off)) % 2) continue;
           const double azimuth = 90 * quarter + off;
           const Quality q = quality_at(fabric, direction(polar, azimuth), samples, 7, *view);
-          // A pile seen from above is so even that the uniform sampler is nearly perfect, and a ratio to it says nothing.
+          // A pile seen from above is so even that the uniform sampler is nearly perfect, and a ratio to it says
+          // nothing.
           if (!is_preset(look) && q.relative < 0.01) continue;
           if (q.variance > worst) worst = q.variance, where[0] = polar, where[1] = azimuth;
         }
@@ -99,7 +100,8 @@ TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMean) {
       largest = std::max(largest, quality_at(fabric_of(look), direction(polar, azimuth), samples, 9, *view).largest);
     }
     EXPECT_LT(largest, 10) << look.name;
-    printf("table of %-32s largest of %d weights: %.2f times the mean\n", look.name.c_str(), views * samples, largest);
+    printf("table of %-32s largest of %d weights: %.2f times the mean\n", look.name.c_str(), views * samples,
+           largest);
   }
 }
 

@@ -15,7 +15,9 @@ struct Row {
 std::vector<Row> rows() {
   const std::string file = SATEEN_SOURCE_DIR "/tests/fabric/data/cloth_vectors.json";
   const JsonDocument document = parse_json(read_text_file(file, 1 << 20), file);
-  const auto vector = [](const JsonValue& v) { return Vec3d(v.items[0].number, v.items[1].number, v.items[2].number); };
+  const auto vector = [](const JsonValue& v) {
+    return Vec3d(v.items[0].number, v.items[1].number, v.items[2].number);
+  };
   std::vector<Row> all;
   for (const JsonValue& v : document.root.find("rows")->items)
     all.push_back({v.find("look")->text, vector(*v.find("wi")), vector(*v.find("wo")), vector(*v.find("f"))});
@@ -40,8 +42,8 @@ TEST(ClothVectors, EveryRowIsReproducedByTheKernelThatRenders) {
     const Color f = evaluate(*view, Vec3(row.wi));
     for (int c = 0; c < 3; ++c) {
       worst = std::max(worst, excess(f[c], row.f[c]));
-      EXPECT_LE(excess(f[c], row.f[c]), 1) << "row " << i << ", " << row.look << ", channel " << c << ": " << f[c]
-                                           << " for " << row.f[c];
+      EXPECT_LE(excess(f[c], row.f[c]), 1)
+          << "row " << i << ", " << row.look << ", channel " << c << ": " << f[c] << " for " << row.f[c];
     }
   }
   RecordProperty("worst_over_allowed", std::to_string(worst));
@@ -59,7 +61,8 @@ TEST(ClothVectors, EveryRowIsReproducedByTheDoubleKernel) {
     prepare_view<double>(threads, wo.x, wo.y, wo.z, *view);
     const ThreadSums<double> s = scatter<double>(threads, *view, wi.x, wi.y, wi.z);
     for (int c = 0; c < 3; ++c) {
-      const double f = s.surface[0] + s.surface[1] + look.warp.A.value[c] * s.volume[0] + look.weft.A.value[c] * s.volume[1];
+      const double f =
+          s.surface[0] + s.surface[1] + look.warp.A.value[c] * s.volume[0] + look.weft.A.value[c] * s.volume[1];
       worst = std::max(worst, excess(f, row.f[c]));
       EXPECT_LE(excess(f, row.f[c]), 1) << row.look << ", channel " << c << ": " << f << " for " << row.f[c];
     }

@@ -2,7 +2,8 @@
 
 namespace sateen::test {
 
-/// One array of 8 floats for every operation and elementary function of Lanes, in a fixed order, for the inputs a, b, c.
+/// One array of 8 floats for every operation and elementary function of Lanes, in a fixed order, for the inputs a, b,
+/// c.
 inline constexpr int lane_operations = 24;
 using LaneResults = float[lane_operations][8];
 

@@ -39,7 +39,8 @@ TEST(Sobol, EveryAlignedBlockIsStratifiedInOneDimension) {
     for (int k = 0; k <= 12; ++k)
       for (const std::uint32_t first : {0u, 3u << k}) {
         std::set<int> strata;
-        for (std::uint32_t i = 0; i < (1u << k); ++i) strata.insert(int(draw(sequence, dimension, first + i) * (1 << k)));
+        for (std::uint32_t i = 0; i < (1u << k); ++i)
+          strata.insert(int(draw(sequence, dimension, first + i) * (1 << k)));
         ASSERT_EQ(strata.size(), size_t(1) << k);
       }
 }
@@ -82,13 +83,15 @@ TEST(Sobol, DimensionsPixelsReplicatesAndBouncesAreIndependent) {
     series.push_back(second);
   };
   for (const Dimension d : every_dimension) add(pixel_sequence(7, 100, 200, 0, 0), d);
-  for (const auto& [x, y] : {std::pair{101, 200}, {100, 201}, {200, 100}}) add(pixel_sequence(7, x, y, 0, 0), Dimension::film);
+  for (const auto& [x, y] : {std::pair{101, 200}, {100, 201}, {200, 100}})
+    add(pixel_sequence(7, x, y, 0, 0), Dimension::film);
   add(pixel_sequence(7, 100, 200, 1, 0), Dimension::film);
   add(pixel_sequence(7, 100, 200, 0, 1), Dimension::film);
   add(pixel_sequence(8, 100, 200, 0, 0), Dimension::film);
   for (size_t i = 0; i < series.size(); ++i)
     for (size_t j = 0; j < i; ++j)
-      EXPECT_LT(std::abs(correlation(series[i], series[j])), 6 / std::sqrt(double(n))) << "series " << i << " and " << j;
+      EXPECT_LT(std::abs(correlation(series[i], series[j])), 6 / std::sqrt(double(n)))
+          << "series " << i << " and " << j;
 }
 
 // One sample of every pixel is white noise over the picture, not a pattern.
@@ -96,7 +99,9 @@ TEST(Sobol, NeighbouringPixelsAreUncorrelated) {
   std::vector<double> here, right, below;
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
-      const auto at = [](int px, int py) { return draw2(pixel_sequence(3, px, py, 0), Dimension::environment, 0)[0]; };
+      const auto at = [](int px, int py) {
+        return draw2(pixel_sequence(3, px, py, 0), Dimension::environment, 0)[0];
+      };
       here.push_back(at(x, y));
       right.push_back(at(x + 1, y));
       below.push_back(at(x, y + 1));
