@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 
@@ -299,7 +300,8 @@ ThreadSums<Real> scatter(const Threads<Real>& threads, const ThreadView<Real>& v
     }
   }
   const Real q = sum(reweight);
-  if (!(q > 0)) return out;  // every P is 0: F is 0 (cloth-model.md section 3)
+  // Every P is 0: F is 0 (cloth-model.md section 3). So too for a denormal, whose inverse is infinite.
+  if (!(q >= std::numeric_limits<Real>::min())) return out;
   const Real inverse_q = 1 / (q + t.gap * view_of_wo.wo[2]);
   out.surface = {sum(surface_warp) * inverse_q, sum(surface_weft) * inverse_q};
   out.volume = {sum(volume_warp) * inverse_q, sum(volume_weft) * inverse_q};

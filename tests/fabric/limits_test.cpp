@@ -221,6 +221,26 @@ TEST(Limits, OppositeEndsOfAThreadHaveAFiniteLimit) {
   EXPECT_LT(last, 1e8);
 }
 
+// Found by the long run of the random looks: what is left of Q was a denormal, and its inverse infinite.
+TEST(Limits, ADenormalHeightOverTheClothIsDark) {
+  const Denormals mode(true);
+  Random random{37};
+  auto view = std::make_unique<FabricView>();
+  for (int i = 0; i < 300; ++i) {
+    Look look = random_look(random, i % 4 == 0);
+    for (ThreadFamily* f : {&look.warp, &look.weft}) f->gamma_s_deg = std::max(f->gamma_s_deg, 5.0f), f->gamma_v_deg = 30;
+    const Fabric fabric = compile_fabric(look, same_space, {false, 1});
+    _mm_setcsr(_mm_getcsr() & ~0x8040u);
+    for (const float z : {1.4013e-45f, 1e-42f, 1e-39f, 1.2e-38f, 1e-36f})
+      for (const float x : {0.0f, 1e-30f, 1e-40f, 1e-18f}) {
+        prepare_view(fabric, Vec3(x, -1, z), FabricSampler::talk, *view);
+        EXPECT_TRUE(good(evaluate_parts(*view, Vec3(-x, 1, z)))) << i << " " << x << " " << z;
+        prepare_view(fabric, Vec3(1, x, z), FabricSampler::talk, *view);
+        EXPECT_TRUE(good(evaluate_parts(*view, Vec3(-1, -x, z)))) << i << " " << x << " " << z;
+      }
+  }
+}
+
 TEST(Limits, ATooLongCurveSaysHowManyTangentsItNeeds) {
   Look look = look_named("linen_plain");
   for (ThreadFamily* f : {&look.warp, &look.weft}) {
