@@ -7,7 +7,9 @@ namespace sateen {
 
 namespace {
 // Samples of replicate r among the first n of a pixel.
-int replicate_count(std::uint32_t n, int r) { return int((n + replicates - 1 - std::uint32_t(r)) / replicates); }
+int replicate_count(std::uint32_t n, int r) {
+  return int((n + replicates - 1 - std::uint32_t(r)) / replicates);
+}
 }  // namespace
 
 Color pixel_mean(const FilmPixel& pixel) {

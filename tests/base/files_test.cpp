@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 class Files : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(SATEEN_BINARY_DIR) / "test-files" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ =
+        fs::path(SATEEN_BINARY_DIR) / "test-files" / testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -8,11 +8,11 @@ namespace {
 const std::vector<std::string> looks{"linen_plain", "silk_shot", "velvet", "velvet_red", "silk_crepe_de_chine"};
 
 TEST(NearestName, ForgivesASlipOfEachKind) {
-  EXPECT_EQ(nearest_name("velvt", looks), "velvet");       // left out
-  EXPECT_EQ(nearest_name("vellvet", looks), "velvet");     // doubled
-  EXPECT_EQ(nearest_name("velwet", looks), "velvet");      // another letter
-  EXPECT_EQ(nearest_name("vlevet", looks), "velvet");      // swapped
-  EXPECT_EQ(nearest_name("VELVET", looks), "velvet");      // case
+  EXPECT_EQ(nearest_name("velvt", looks), "velvet");    // left out
+  EXPECT_EQ(nearest_name("vellvet", looks), "velvet");  // doubled
+  EXPECT_EQ(nearest_name("velwet", looks), "velvet");   // another letter
+  EXPECT_EQ(nearest_name("vlevet", looks), "velvet");   // swapped
+  EXPECT_EQ(nearest_name("VELVET", looks), "velvet");   // case
   EXPECT_EQ(nearest_name("silk_shto", looks), "silk_shot");
 }
 

@@ -59,8 +59,7 @@ TEST(ParallelFor, RunsEachOnce) {
 }
 
 TEST(ParallelFor, RethrowsWhatABodyThrows) {
-  for (const int threads : {1, 2, 8})
-    try {
+  for (const int threads : {1, 2, 8}) try {
       parallel_for(100, threads, [](int i) {
         if (i == 57) throw std::runtime_error("at " + std::to_string(i));
       });
@@ -76,7 +75,8 @@ TEST(ParallelFor, RunsAsManyThreadsAsAskedForAlsoBeyondTheProcessors) {
   const auto start = std::chrono::steady_clock::now();
   parallel_for(8, 8, [&](int) {
     ++under_way;
-    while (under_way < 8 && std::chrono::steady_clock::now() - start < std::chrono::seconds(20)) std::this_thread::yield();
+    while (under_way < 8 && std::chrono::steady_clock::now() - start < std::chrono::seconds(20))
+      std::this_thread::yield();
   });
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }

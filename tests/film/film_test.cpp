@@ -46,8 +46,8 @@ TEST(FilmPixel, VarianceIsUnknownBelowTwoReplicates) {
   EXPECT_GT(pixel_variance(pixel_of({Color(3), Color(4)})).x, 0);
 }
 
-// Samples of unit variance: the mean of n has variance 1 / n, whatever n. 40,000 pixels a count; deviates are below the
-// bound in all but 1e-4 of runs.
+// Samples of unit variance: the mean of n has variance 1 / n, whatever n. 40,000 pixels a count; deviates are below
+// the bound in all but 1e-4 of runs.
 TEST(FilmPixel, VarianceIsUnbiasedForEveryNumberOfSamples) {
   std::mt19937 random(1);
   std::normal_distribution<float> normal(5, 1);

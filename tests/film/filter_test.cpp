@@ -20,8 +20,8 @@ double share_below(double x) {
 
 constexpr int many = 1 << 16;
 
-// Evenly spaced numbers instead of random ones: nothing here is left to chance. A step of the inverse table holds 1/1024
-// of all samples; the tests ask for half of that.
+// Evenly spaced numbers instead of random ones: nothing here is left to chance. A step of the inverse table holds
+// 1/1024 of all samples; the tests ask for half of that.
 TEST(Filter, SamplesAreDistributedAsBlackmanHarris) {
   double largest = 0;
   for (int i = 0; i < many; ++i) {

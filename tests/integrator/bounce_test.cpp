@@ -92,7 +92,8 @@ Look bright(const std::string& name) {
 }
 
 Environment soft_map() {
-  return map_of(16, 8, [](int x, int y) { return Color(y < 4 ? 0.3f + 0.2f * float(x % 5) : 0.1f, 0.4f, 0.1f * float(y)); });
+  return map_of(16, 8,
+                [](int x, int y) { return Color(y < 4 ? 0.3f + 0.2f * float(x % 5) : 0.1f, 0.4f, 0.1f * float(y)); });
 }
 
 TEST(Bounces, AgreeWithAPlainPathTracer) {

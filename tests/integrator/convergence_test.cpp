@@ -23,8 +23,10 @@ double slope(const Scene& scene, const LightSettings& light, int seeds) {
     for (int seed = 0; seed < seeds; ++seed) {
       double sum = 0;
       for (int k = 0; k < samples; ++k)
-        sum += double(
-            trace_sample(scene, light, 500 + std::uint32_t(seed), 0, 0, k % 4, std::uint32_t(k / 4), *scratch).total().y);
+        sum +=
+            double(trace_sample(scene, light, 500 + std::uint32_t(seed), 0, 0, k % 4, std::uint32_t(k / 4), *scratch)
+                       .total()
+                       .y);
       values.add(sum / samples);
     }
     const double x = std::log(double(samples)), y = std::log(values.variance_of_mean());
@@ -44,14 +46,17 @@ Scene smooth_scene(const std::string& look) {
 }
 
 // The steepest slope that is asked for: what one direction of a smooth density promises; less where the talk's choice
-// of a thread cuts its numbers into strips. Resampling chooses between candidates, which is not smooth in its numbers:
-// it may fall as slowly as random numbers do (-1), from a lower start.
+// of a thread cuts its numbers into strips. Resampling chooses between candidates, which is not smooth in its
+// numbers: it may fall as slowly as random numbers do (-1), from a lower start.
 double promised_slope(Strategy strategy) {
   switch (strategy) {
     case Strategy::talk:
-    case Strategy::mis_talk: return -1.1;
-    case Strategy::resampled: return -0.9;
-    default: return -1.25;
+    case Strategy::mis_talk:
+      return -1.1;
+    case Strategy::resampled:
+      return -0.9;
+    default:
+      return -1.25;
   }
 }
 

@@ -29,14 +29,16 @@ Color reflectance(const Fabric& fabric, const Vec3& wo) {
     for (int j = 0; j < phis; ++j) {
       const double theta = ((i + 0.5) / thetas - 0.5) * pi_d, phi = ((j + 0.5) / phis - 0.5) * pi_d;
       const double c = std::cos(theta);
-      const Color f = evaluate(*view, Vec3(float(std::sin(theta)), float(c * std::sin(phi)), float(c * std::cos(phi))));
+      const Color f =
+          evaluate(*view, Vec3(float(std::sin(theta)), float(c * std::sin(phi)), float(c * std::cos(phi))));
       sum += Vec3d(f) * c;
     }
   return Color(Vec3(sum * (pi_d / thetas * pi_d / phis)));
 }
 
 Environment Sun::map(float rotation) const {
-  return map_of(width, height, [this](int i, int j) { return i == x && j == y ? Color(radiance) : Color(0); }, rotation);
+  return map_of(
+      width, height, [this](int i, int j) { return i == x && j == y ? Color(radiance) : Color(0); }, rotation);
 }
 
 double Sun::solid_angle() const {
@@ -64,7 +66,8 @@ Estimate estimate(const Scene& scene, const LightSettings& light, int samples) {
   for (int b = 0; b < batches; ++b) {
     Vec3d sum(0);
     for (int k = 0; k < samples; ++k) {
-      const CameraSample s = trace_sample(scene, light, 77 + std::uint32_t(b), 0, 0, k % 4, std::uint32_t(k / 4), *scratch);
+      const CameraSample s =
+          trace_sample(scene, light, 77 + std::uint32_t(b), 0, 0, k % 4, std::uint32_t(k / 4), *scratch);
       sum += Vec3d(s.total());
       out.alpha += double(s.alpha) / (samples * batches);
       out.backdrop += Vec3d(s.backdrop) / double(samples * batches);

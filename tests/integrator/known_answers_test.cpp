@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-// Renders whose exact answer is known. Every test states its false-alarm rate of 1e-4 through the deviate that it asks
-// for, corrected for its number of comparisons (Sidak).
+// Renders whose exact answer is known. Every test states its false-alarm rate of 1e-4 through the deviate that it
+// asks for, corrected for its number of comparisons (Sidak).
 
 namespace sateen_test {
 namespace {
@@ -15,10 +15,14 @@ namespace {
 using namespace sateen;
 
 constexpr double false_alarms = 1e-4;
-double bound(size_t comparisons) { return sidak_deviate(false_alarms, double(comparisons)); }
+double bound(size_t comparisons) {
+  return sidak_deviate(false_alarms, double(comparisons));
+}
 
 // The floor looks to +Y, its warp along +X, its weft along -Z.
-Vec3 to_floor(const Vec3& d) { return {d.x, -d.z, d.y}; }
+Vec3 to_floor(const Vec3& d) {
+  return {d.x, -d.z, d.y};
+}
 
 Vec3 direction(float polar_deg, float azimuth_deg) {
   const float p = radians(polar_deg), a = radians(azimuth_deg);
@@ -92,8 +96,8 @@ TEST(ConstantLight, GivesAClosedFormItsValue) {
 }
 
 TEST(ConstantLight, IsInvisibleOnAClothThatReflectsAllOfIt) {
-  const Scene scene =
-      floor_scene(fabric_of(closed_form_look(float(1 / closed_form_reflectance))), constant_map(0.25f), Vec3(0, 1, 0));
+  const Scene scene = floor_scene(fabric_of(closed_form_look(float(1 / closed_form_reflectance))),
+                                  constant_map(0.25f), Vec3(0, 1, 0));
   for (const NamedSettings& settings : all_settings(2))
     expect_value(estimate(scene, settings.light, 512), Color(0.25f, 0.125f, 0.0625f), bound(30), 0, settings.name);
 }
@@ -163,9 +167,8 @@ TEST(Sun, AnywhereElseGivesFTimesItsIrradiance) {
 TEST(Sun, OfTheClosedFormGivesItsValueWithoutAnyCodeOfTheClothModel) {
   const Sun sun{32, 16, 21, 3, 10};
   const Scene scene = floor_scene(fabric_of(closed_form_look(1)), sun.map(), Vec3(0, 1, 0));
-  const Color expected = sun.integral([](const Vec3& d) {
-    return Color(1, 0.5f, 0.25f) * float(closed_form_value(to_floor(d)));
-  });
+  const Color expected =
+      sun.integral([](const Vec3& d) { return Color(1, 0.5f, 0.25f) * float(closed_form_value(to_floor(d))); });
   for (const NamedSettings& settings : all_settings())
     if (knows_the_map(settings.light.strategy))
       expect_value(estimate(scene, settings.light, 512), expected, bound(21), 1e-4, settings.name);
@@ -222,8 +225,8 @@ TEST(Shadow, OfARoofWithGapsLetsTheirShareThrough) {
   for (int roofs = 0; roofs <= 3; ++roofs) {
     const Scene scene = roofed(fabric, roofs, sun.map());
     for (const NamedSettings& settings : all)
-      expect_value(estimate(scene, settings.light, 512), open * std::pow(0.4f, float(roofs)), bound(4 * all.size() * 3),
-                   1e-4, settings.name + " under " + std::to_string(roofs) + " roofs");
+      expect_value(estimate(scene, settings.light, 512), open * std::pow(0.4f, float(roofs)),
+                   bound(4 * all.size() * 3), 1e-4, settings.name + " under " + std::to_string(roofs) + " roofs");
   }
 }
 
@@ -326,7 +329,8 @@ TEST(WarpAngle, OfNinetyDegreesExchangesWarpAndWeft) {
   std::mt19937 random(4);
   for (int k = 0; k < 200; ++k) {
     const Vec3 wi = direction(float(random() % 890) / 10, float(random() % 3600) / 10);
-    const Color a = scattered(scene.front, point.frame.to_local(wi), point.wo), b = scattered(other, to_floor(wi), to_floor(view));
+    const Color a = scattered(scene.front, point.frame.to_local(wi), point.wo),
+                b = scattered(other, to_floor(wi), to_floor(view));
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 1e-4f * b[c] + 1e-6f);
   }
   expect_value(estimate(scene, {}, 512), reflectance(other, to_floor(view)), bound(3), quadrature_error, "render");

@@ -28,7 +28,9 @@ Fabric fabric_of(const Look& look) {
   return at->second;
 }
 
-Mesh shape(const std::string& name, int level) { return subdivide(built_in_shape(name), level, 2); }
+Mesh shape(const std::string& name, int level) {
+  return subdivide(built_in_shape(name), level, 2);
+}
 
 void add_quad(Mesh& mesh, const Vec3& middle, const Vec3& along, const Vec3& across, bool mirrored) {
   const auto first = std::uint32_t(mesh.positions.size());

@@ -30,8 +30,8 @@ sateen::Environment constant_map(float value = 1);
 
 sateen::Scene make_scene(sateen::Mesh mesh, sateen::Fabric front, sateen::Environment environment);
 
-/// A pinhole so far away that the whole picture has one view direction to 1e-6 rad; `towards` leads from the object to the
-/// camera. Covers about `extent` around `middle`.
+/// A pinhole so far away that the whole picture has one view direction to 1e-6 rad; `towards` leads from the object
+/// to the camera. Covers about `extent` around `middle`.
 sateen::Camera distant_camera(const sateen::Vec3& middle, const sateen::Vec3& towards, float extent, int width = 1,
                               int height = 1);
 

@@ -88,9 +88,10 @@ Disagreement largest_deviate(const PictureBatches& a, const PictureBatches& b, S
           const double deviate = std::abs(difference_deviate(one, other));
           if (deviate <= worst.deviate) continue;
           worst.deviate = deviate;
-          worst.place = fmt::format("{} x {} pixels from ({}, {}), channel {}: {:.6g} +- {:.2g} against {:.6g} +- {:.2g}",
-                                    t.size_x, t.size_y, x * t.size_x, y * t.size_y, c, one.mean,
-                                    std::sqrt(one.variance_of_mean()), other.mean, std::sqrt(other.variance_of_mean()));
+          worst.place =
+              fmt::format("{} x {} pixels from ({}, {}), channel {}: {:.6g} +- {:.2g} against {:.6g} +- {:.2g}",
+                          t.size_x, t.size_y, x * t.size_x, y * t.size_y, c, one.mean,
+                          std::sqrt(one.variance_of_mean()), other.mean, std::sqrt(other.variance_of_mean()));
         }
   }
   return worst;

@@ -17,8 +17,8 @@ struct PictureBatches {
 };
 
 /// `samples` a batch and pixel, dealt out to replicates as render() does.
-PictureBatches render_batches(const sateen::Scene& scene, const sateen::LightSettings& light, int batches, int samples,
-                              std::uint32_t first_seed);
+PictureBatches render_batches(const sateen::Scene& scene, const sateen::LightSettings& light, int batches,
+                              int samples, std::uint32_t first_seed);
 
 /// What two pictures are compared by. Pixels see local faults, means over blocks of 4 x 4 pixels and over the picture
 /// small ones.

@@ -13,8 +13,8 @@
 #include "mesh/subdivide.h"
 #include "scene/environment_file.h"
 
-// All strategies converge to the same picture: every pixel, every block of 4 x 4 pixels and the whole picture of every
-// scene, by deviates of means of independent batches, corrected for their number (Sidak).
+// All strategies converge to the same picture: every pixel, every block of 4 x 4 pixels and the whole picture of
+// every scene, by deviates of means of independent batches, corrected for their number (Sidak).
 
 namespace sateen_test {
 namespace {
@@ -39,7 +39,8 @@ Environment made_map(const std::string& name) {
   if (name == "noise") {
     std::mt19937 random(7);
     const auto r = [&] { return 2 * std::pow(float(random() % 10000) / 10000, 3.0f); };
-    return map_of(32, 16, [&](int, int) { return Color(r(), r(), r()); }, radians(37));
+    return map_of(
+        32, 16, [&](int, int) { return Color(r(), r(), r()); }, radians(37));
   }
   if (name == "one texel")
     return map_of(16, 8, [](int x, int y) { return x == 1 && y == 2 ? Color(30, 20, 10) : Color(0); });
@@ -71,9 +72,12 @@ int share_of_samples(const LightSettings& light, int samples) {
   switch (light.strategy) {
     case Strategy::uniform:
     case Strategy::table:
-    case Strategy::environment: return 2 * samples;
-    case Strategy::resampled: return light.candidates > 2 ? samples / 2 : samples;
-    default: return samples;
+    case Strategy::environment:
+      return 2 * samples;
+    case Strategy::resampled:
+      return light.candidates > 2 ? samples / 2 : samples;
+    default:
+      return samples;
   }
 }
 
@@ -95,13 +99,13 @@ void expect_agreement(const std::vector<SceneRecipe>& recipes, int bounces, int 
           knows_the_map(settings.light.strategy) ? finest_of_all : std::max(finest_of_all, recipe.blind);
       if (finest == Scale::nothing) continue;
       const double start = cpu_seconds();
-      const PictureBatches picture = render_batches(scene, settings.light, batches,
-                                                    share_of_samples(settings.light, samples), seed);
+      const PictureBatches picture =
+          render_batches(scene, settings.light, batches, share_of_samples(settings.light, samples), seed);
       EXPECT_EQ(picture.non_finite, 0) << name << ", " << settings.name;
       const Disagreement worst = largest_deviate(picture, reference, finest);
       if (std::getenv("SATEEN_TEST_NUMBERS"))
         fprintf(stderr, "%-60s %-16s %.2f  %.2f s  %s\n", name.c_str(), settings.name.c_str(), worst.deviate,
-               cpu_seconds() - start, worst.place.c_str());
+                cpu_seconds() - start, worst.place.c_str());
       EXPECT_LT(worst.deviate, bound) << name << ": " << settings.name << " disagrees with mis-compensated in "
                                       << worst.place;
     }
@@ -125,8 +129,14 @@ const std::vector<SceneRecipe>& everyday() {
 std::vector<SceneRecipe> grid() {
   const std::string shared = SATEEN_SOURCE_DIR "/../shared";
   const bool there = std::filesystem::exists(shared + "/hdri/studio.exr");
-  const std::vector<std::string> looks{"polyester_satin_charmeuse", "silk_crepe_de_chine", "velvet", "linen_plain",
-                                       "silk_shot", "ivory_duchess_satin", "habotai", "dupioni"};
+  const std::vector<std::string> looks{"polyester_satin_charmeuse",
+                                       "silk_crepe_de_chine",
+                                       "velvet",
+                                       "linen_plain",
+                                       "silk_shot",
+                                       "ivory_duchess_satin",
+                                       "habotai",
+                                       "dupioni"};
   std::vector<std::pair<std::string, Scale>> maps{{"noise", Scale::pixel},
                                                   {"one texel", Scale::block},
                                                   {"constant", Scale::pixel},
@@ -159,7 +169,9 @@ TEST(Strategies, ConvergeToTheSamePictureOverTheWholeGridOfScenesWithLightThatMe
   expect_agreement(grid(), 2, 128, Scale::block);
 }
 
-TEST(Strategies, ConvergeToTheSamePicture) { expect_agreement(everyday(), 0, 32, Scale::pixel); }
+TEST(Strategies, ConvergeToTheSamePicture) {
+  expect_agreement(everyday(), 0, 32, Scale::pixel);
+}
 
 TEST(Strategies, ConvergeToTheSamePictureWithLightThatMeetsClothAgain) {
   expect_agreement({everyday()[0], everyday()[2], {"linen_plain", "drape", 0, "noise"}}, 2, 16, Scale::block);

@@ -57,18 +57,21 @@ std::vector<std::string> breaches_of(std::vector<SourceFile> files) {
 }
 
 TEST(LayeringRules, AllowOwnRoomAndRoomsBelow) {
-  EXPECT_TRUE(breaches_of({{"lib/scene/a.cpp", "#include \"scene/scene.h\"\n#include <vector>\n#include <sys/stat.h>\n"
-                                               "#include \"base/error.h\"\n#include <fmt/format.h>\n"},
-                           {"app/main.cpp", "#include \"render/render.h\"\n#include \"run.h\"\n#include <CLI/App.hpp>\n"},
-                           {"app/run.h", ""}})
-                  .empty());
+  EXPECT_TRUE(
+      breaches_of({{"lib/scene/a.cpp",
+                    "#include \"scene/scene.h\"\n#include <vector>\n#include <sys/stat.h>\n"
+                    "#include \"base/error.h\"\n#include <fmt/format.h>\n"},
+                   {"app/main.cpp", "#include \"render/render.h\"\n#include \"run.h\"\n#include <CLI/App.hpp>\n"},
+                   {"app/run.h", ""}})
+          .empty());
 }
 
 TEST(LayeringRules, RefuseARoomAboveWithItsLine) {
   const auto found = breaches_of({{"lib/math/a.h", "#pragma once\n  #  include \"scene/scene.h\"\n"}});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0], "lib/math/a.h:2: includes \"scene/scene.h\", but scene is above math: a file includes its own room "
-                      "and rooms below it (base, math, scene, render)");
+  EXPECT_EQ(found[0],
+            "lib/math/a.h:2: includes \"scene/scene.h\", but scene is above math: a file includes its own room "
+            "and rooms below it (base, math, scene, render)");
 }
 
 TEST(LayeringRules, RefuseTheProgramAndFilesThatAreNotThere) {
@@ -80,8 +83,9 @@ TEST(LayeringRules, RefuseTheProgramAndFilesThatAreNotThere) {
 TEST(LayeringRules, RefuseALibraryOutOfItsPlace) {
   const auto found = breaches_of({{"lib/scene/camera.cpp", "#include <embree3/rtcore.h>\n"}});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0], "lib/scene/camera.cpp:1: includes <embree3/rtcore.h>, but Embree stays in lib/scene/ray_tracer.cpp: "
-                      "call what that place offers instead");
+  EXPECT_EQ(found[0],
+            "lib/scene/camera.cpp:1: includes <embree3/rtcore.h>, but Embree stays in lib/scene/ray_tracer.cpp: "
+            "call what that place offers instead");
   EXPECT_TRUE(breaches_of({{"lib/scene/ray_tracer.cpp", "#include <embree3/rtcore.h>\n"}}).empty());
   for (const char* header : {"opensubdiv/far/error.h", "OpenColorIO/OpenColorIO.h", "OpenImageIO/imageio.h",
                              "OpenEXR/ImfHeader.h", "ImfHeader.h", "nlohmann/json.hpp", "CLI/App.hpp", "tbb/tbb.h",
@@ -102,14 +106,16 @@ TEST(LayeringRules, RefuseAFolderThatIsNoRoomAndAFileThatIsTooLong) {
 }
 
 TEST(LayeringRules, NameACircle) {
-  const auto found = breaches_of({{"lib/math/a.h", "#include \"base/error.h\"\n"}, {"lib/base/a.h", "#include \"math/frame.h\"\n"}});
+  const auto found =
+      breaches_of({{"lib/math/a.h", "#include \"base/error.h\"\n"}, {"lib/base/a.h", "#include \"math/frame.h\"\n"}});
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[1], "rooms include one another in a circle: base -> math -> base");
 }
 
 TEST(LayeringRules, IncludesInCommentsAndStringsOfOtherLinesDoNotCount) {
-  EXPECT_TRUE(breaches_of({{"lib/math/a.h", "// #include \"scene/scene.h\"\nconst char* a = \"#include <embree3/a.h>\";\n"}})
-                  .empty());
+  EXPECT_TRUE(
+      breaches_of({{"lib/math/a.h", "// #include \"scene/scene.h\"\nconst char* a = \"#include <embree3/a.h>\";\n"}})
+          .empty());
 }
 
 }  // namespace

@@ -11,7 +11,9 @@ namespace sateen_test {
 
 namespace {
 
-bool starts_with(const std::string& text, const std::string& with) { return text.compare(0, with.size(), with) == 0; }
+bool starts_with(const std::string& text, const std::string& with) {
+  return text.compare(0, with.size(), with) == 0;
+}
 
 struct Include {
   int line;
@@ -63,15 +65,18 @@ void check_outside(const SourceFile& file, const Include& include, std::vector<s
   const bool from_system = include.name.find('/') == std::string::npos || starts_with(include.name, "sys/") ||
                            starts_with(include.name, "linux/");
   if (!from_system)
-    found.push_back(fmt::format("{}:{}: includes <{}> of a library without a place: give it one file or one room in "
-                                "tests/layering/rules.cpp",
-                                file.path, include.line, include.name));
+    found.push_back(
+        fmt::format("{}:{}: includes <{}> of a library without a place: give it one file or one room in "
+                    "tests/layering/rules.cpp",
+                    file.path, include.line, include.name));
 }
 
 void check_inside(const SourceFile& file, const Include& include, const std::vector<std::string>& rooms,
                   const std::set<std::string>& known, std::vector<std::string>& found) {
   const std::string own = room_of(file.path), other = include.name.substr(0, include.name.find('/'));
-  const auto floor = [&](const std::string& room) { return std::find(rooms.begin(), rooms.end(), room) - rooms.begin(); };
+  const auto floor = [&](const std::string& room) {
+    return std::find(rooms.begin(), rooms.end(), room) - rooms.begin();
+  };
   const auto say = [&](const std::string& what) {
     found.push_back(fmt::format("{}:{}: includes \"{}\", {}", file.path, include.line, include.name, what));
   };
@@ -155,7 +160,8 @@ std::vector<std::string> breaches(const std::vector<SourceFile>& files, const st
         continue;
       }
       check_inside(file, include, rooms, known, found);
-      if (const std::string other = room_of("lib/" + include.name); own != "app" && other != own) uses[own].insert(other);
+      if (const std::string other = room_of("lib/" + include.name); own != "app" && other != own)
+        uses[own].insert(other);
     }
     const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
     if (lines > most_lines)

@@ -12,8 +12,8 @@ struct SourceFile {
   std::string text;
 };
 
-/// An outside library: what its headers' names begin with, and the only files that may include them. A place that ends
-/// in '/' is a folder.
+/// An outside library: what its headers' names begin with, and the only files that may include them. A place that
+/// ends in '/' is a folder.
 struct OutsideLibrary {
   std::string name;
   std::vector<std::string> prefixes;

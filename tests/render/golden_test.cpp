@@ -115,14 +115,16 @@ nlohmann::ordered_json to_json(const std::vector<Batches>& all) {
 void write_golden(const std::string& look, const Golden& golden) {
   fs::create_directories(golden_path(look).parent_path());
   nlohmann::ordered_json out;
-  out["what"] = fmt::format("drape at level 1, studio_softboxes, {} x {} pixels in blocks of {} x {}, {} batches; of "
-                            "every block, then the whole, and every channel [value, standard error]",
-                            width, height, block_width, block_height, batches);
+  out["what"] = fmt::format(
+      "drape at level 1, studio_softboxes, {} x {} pixels in blocks of {} x {}, {} batches; of "
+      "every block, then the whole, and every channel [value, standard error]",
+      width, height, block_width, block_height, batches);
   out["means"] = to_json(golden.means);
   out["squares"] = to_json(golden.squares);
   std::string text = out.dump();
   // A line a block keeps differences readable.
-  for (size_t at = text.find("],["); at != std::string::npos; at = text.find("],[", at + 1)) text.replace(at, 3, "],\n[");
+  for (size_t at = text.find("],["); at != std::string::npos; at = text.find("],[", at + 1))
+    text.replace(at, 3, "],\n[");
   write_text_whole(golden_path(look), text + "\n");
 }
 

@@ -10,8 +10,12 @@
 
 namespace sateen_test {
 
-inline std::string look_path(const std::string& name) { return SATEEN_SOURCE_DIR "/looks/" + name + ".json"; }
-inline std::string map_path(const std::string& name) { return SATEEN_SOURCE_DIR "/envmaps/" + name + ".exr"; }
+inline std::string look_path(const std::string& name) {
+  return SATEEN_SOURCE_DIR "/looks/" + name + ".json";
+}
+inline std::string map_path(const std::string& name) {
+  return SATEEN_SOURCE_DIR "/envmaps/" + name + ".exr";
+}
 
 inline sateen::SceneSettings scene_settings(const std::string& look, int width, int height) {
   sateen::SceneSettings settings;

@@ -86,8 +86,8 @@ TEST(RenderProgress, NeverFallsAndTellsEveryPass) {
   EXPECT_EQ(told_samples, 64);
 }
 
-// The variance that a film claims is the variance that seeds show: each pair of seeds gives one difference whose mean is
-// 0 only if the replicates of a pixel are independent. False alarms 1e-4 over both strategies.
+// The variance that a film claims is the variance that seeds show: each pair of seeds gives one difference whose mean
+// is 0 only if the replicates of a pixel are independent. False alarms 1e-4 over both strategies.
 TEST(Replicates, ShowTheVarianceThatSeedsHave) {
   const double bound = sidak_deviate(1e-4, 2);
   for (const Strategy strategy : {Strategy::mis_compensated, Strategy::resampled}) {
@@ -173,7 +173,7 @@ TEST(AlbedoMaps, FollowTheAlbedoOfEveryView) {
       const float angle = 2 * pi * float(column) / AlbedoMap::azimuths;
       const Vec3 wo(r * std::cos(angle), r * std::sin(angle), z);
       const Color expected = albedo_color(satin_scene().front, wo), found = look_up(maps.front, wo);
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-3f * expected[c]);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-2f * expected[c]);
     }
   // Between the nodes a tenth is near enough for a layer; across the seam of the azimuth too.
   for (const float angle : {0.1f, 1.3f, 3.13f, -3.13f, -0.05f}) {

@@ -28,7 +28,9 @@ std::vector<Vec3> cloud(std::mt19937& random, int count, const Vec3& size, const
 
 TEST(Framing, HoldsAllPointsInsideTheMarginAndTouchesIt) {
   std::mt19937 random(1);
-  const auto pick = [&](double low, double high) { return float(low + (high - low) * double(random() % 10001) / 10000); };
+  const auto pick = [&](double low, double high) {
+    return float(low + (high - low) * double(random() % 10001) / 10000);
+  };
   for (int run = 0; run < 2000; ++run) {
     CameraSettings settings;
     settings.azimuth_deg = pick(-180, 180);
@@ -52,8 +54,8 @@ TEST(Framing, HoldsAllPointsInsideTheMarginAndTouchesIt) {
       bottom = std::min(bottom, 1 - settings.margin - at.y);
     }
     EXPECT_GT(std::min({left, right, top, bottom}), -2e-3f) << run;
-    // Both sides of one direction touch: nearer or moved sideways, one of them would be cut. A very wide view may come
-    // so close to one point that there is nothing left to touch.
+    // Both sides of one direction touch: nearer or moved sideways, one of them would be cut. A very wide view may
+    // come so close to one point that there is nothing left to touch.
     float nearest = 1e30f;
     for (const Vec3& p : points) nearest = std::min(nearest, dot(p - camera.position, camera.forward));
     if (nearest < 1e-3f * scale) {
@@ -99,12 +101,15 @@ TEST(Framing, ZoomComesCloserToTheNearestPoint) {
   const Camera whole = frame_points(points, settings, 10, 10);
   settings.zoom = 2;
   const Camera close = frame_points(points, settings, 10, 10);
-  const auto depth = [&](const Camera& c) { return std::min(dot(points[0] - c.position, c.forward), dot(points[1] - c.position, c.forward)); };
+  const auto depth = [&](const Camera& c) {
+    return std::min(dot(points[0] - c.position, c.forward), dot(points[1] - c.position, c.forward));
+  };
   EXPECT_NEAR(depth(close), depth(whole) / 2, 1e-4f * depth(whole));
 }
 
 TEST(Framing, OfNothingAndOfOnePointIsStillACamera) {
-  const std::vector<std::vector<Vec3>> clouds{{}, {Vec3(0)}, {Vec3(1, 2, 3)}, {Vec3(5), Vec3(5)}, {Vec3(1e-20f)}, {Vec3(1e6f)}};
+  const std::vector<std::vector<Vec3>> clouds{
+      {}, {Vec3(0)}, {Vec3(1, 2, 3)}, {Vec3(5), Vec3(5)}, {Vec3(1e-20f)}, {Vec3(1e6f)}};
   for (const auto& points : clouds) {
     const Camera camera = frame_points(points, {}, 64, 32);
     for (const Vec3& v : {camera.position, camera.right, camera.up, camera.forward})
@@ -132,7 +137,8 @@ TEST(CameraRays, APixelsSizeIsTheDistanceBetweenNeighboursAtThePoint) {
   const Camera camera = frame_points(points, {}, 200, 80);
   const Vec3 point(0.3f, -0.2f, 0.4f);
   const float size = camera.pixel_size(point);
-  const Vec2 a = seen(camera, point), b = seen(camera, point + camera.right * size), c = seen(camera, point + camera.up * size);
+  const Vec2 a = seen(camera, point), b = seen(camera, point + camera.right * size),
+             c = seen(camera, point + camera.up * size);
   EXPECT_NEAR((b.x - a.x) * 200, 1, 1e-3);
   EXPECT_NEAR((a.y - c.y) * 80, 1, 1e-3);
   EXPECT_LE(camera.pixel_size(camera.position - camera.forward), 0);
