@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe]...
-# Ten minutes on two cores. SATEEN: the program (build/bin/sateen). GARMENTS and MAPS: folders with the
+# A quarter of an hour on one core. SATEEN: the program (build/bin/sateen). GARMENTS and MAPS: folders with the
 # garments of MakeHuman and HDR maps by Greg Zaal, both CC0; without them those pictures are left as they are.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -11,13 +11,13 @@ out=docs/pictures
 mkdir -p "$out"
 
 picture() {  # picture NAME [flags]
-  "$sateen" render -q --progress none --strategy resampled --bounces 2 -o "$out/$1.jpg" "${@:2}"
+  "$sateen" render -q --progress none --bounces 2 -o "$out/$1.jpg" "${@:2}"
   echo "$out/$1.jpg"
 }
 
-small=(-r 320 180 -s 96)
+small=(-r 320 180 -s 192)
 
-hero() { picture hero -s 192; }
+hero() { picture hero -s 384; }
 
 looks() {
   for file in looks/*.json; do
@@ -33,8 +33,7 @@ lights() {
 }
 
 meshes() {
-  picture skirt -m skirt -l rose_gold_satin --elevation 10 -r 360 360 -s 128
-  picture close -l polyester_satin_charmeuse --zoom 3 "${small[@]}"
+  picture skirt -m skirt -l rose_gold_satin --elevation 10 -r 360 360 -s 256
   picture tour_wide -l emerald_satin --set warp.gamma_s_deg=12 --set warp.gamma_v_deg=24 "${small[@]}"
 }
 
@@ -44,16 +43,16 @@ garments() {
     return
   fi
   picture suit_satin -m "$garments/female_elegantsuit01.obj" -e "$maps/studio.exr" -l emerald_satin --elevation 8 \
-    -r 300 400 -s 96
+    -r 300 400 -s 256
   picture suit_silk -m "$garments/male_casualsuit01.obj" -e "$maps/apartment.exr" -l silk_crepe_de_chine --elevation 8 \
-    -r 300 400 -s 96
+    -r 300 400 -s 256
 }
 
 turntable() {
   local frames
   frames=$(mktemp -d)
-  "$sateen" turntable -q --progress none --strategy resampled --bounces 2 -l shot_taffeta -n 6 -r 270 180 \
-    -s 64 -o "$frames/f.####.png" --sheet "$out/turntable.jpg"
+  "$sateen" turntable -q --progress none --bounces 2 -l shot_taffeta -n 6 -r 270 180 \
+    -s 128 -o "$frames/f.####.png" --sheet "$out/turntable.jpg"
   rm -r "$frames"
   echo "$out/turntable.jpg"
 }

@@ -110,12 +110,21 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
   return fabric;
 }
 
-void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view) {
+void prepare_threads(const Fabric& fabric, const Vec3& wo, FabricView& view) {
   view.fabric = &fabric;
-  view.wo = wo;
   prepare_view<float>(fabric.threads, wo.x, wo.y, wo.z, view.threads);
+}
+
+void prepare_sampler(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, SamplerView& view) {
+  view.fabric = &fabric;
+  view.sampler = sampler;
   if (sampler == FabricSampler::table) view.table = prepare_table(fabric.table, wo);
   if (sampler == FabricSampler::talk) prepare_talk(fabric.talk, wo, view.talk);
+}
+
+void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view) {
+  prepare_threads(fabric, wo, view);
+  prepare_sampler(fabric, wo, sampler, view.sampler);
 }
 
 ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi) {
@@ -130,8 +139,8 @@ Color evaluate(const FabricView& view, const Vec3& wi) {
   return combine_parts(*view.fabric, evaluate_parts(view, wi));
 }
 
-float pdf(const FabricView& view, FabricSampler sampler, const Vec3& wi) {
-  switch (sampler) {
+float pdf(const SamplerView& view, const Vec3& wi) {
+  switch (view.sampler) {
     case FabricSampler::uniform: return wi.z > 0 ? 1 / (2 * pi) : 0;
     case FabricSampler::talk: return talk_pdf(view.fabric->talk, view.talk, wi);
     case FabricSampler::table: return table_pdf(view.table, wi);
@@ -139,12 +148,10 @@ float pdf(const FabricView& view, FabricSampler sampler, const Vec3& wi) {
   return 0;
 }
 
-BsdfValue evaluate(const FabricView& view, FabricSampler sampler, const Vec3& wi) {
-  return {evaluate(view, wi), pdf(view, sampler, wi)};
-}
+BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi) { return {evaluate(view, wi), pdf(view.sampler, wi)}; }
 
-std::optional<Vec3> sample(const FabricView& view, FabricSampler sampler, const FabricRandom& u) {
-  switch (sampler) {
+std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u) {
+  switch (view.sampler) {
     case FabricSampler::uniform: {
       const float z = std::max(1 - float(u.direction[0]), 1e-9f), r = std::sqrt(std::max(1 - z * z, 0.0f));
       const float angle = 2 * pi * float(u.direction[1]);

@@ -34,13 +34,19 @@ struct BsdfValue {
   float pdf = 0;  ///< of the sampler asked for, solid angle [1/sr]
 };
 
+/// What one sampler needs to know of a view, cloth frame. Small beside the threads' terms: a batch keeps many.
+struct SamplerView {
+  const Fabric* fabric = nullptr;
+  FabricSampler sampler = FabricSampler::uniform;
+  TableView table;
+  TalkView talk;
+};
+
 /// View-only terms of one hit, cloth frame, shared by every light direction. Large: keep one a thread, reuse it.
 struct FabricView {
   const Fabric* fabric = nullptr;
-  Vec3 wo{0, 0, 1};
   ThreadView<float> threads;
-  TableView table;
-  TalkView talk;
+  SamplerView sampler;
 };
 
 /// Parts of a Fabric that are not always wanted.
@@ -55,14 +61,16 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
 /// The look's own colours: no conversion whatever the space says (lobe values, tests).
 Color same_space(const Color& value, const std::string& space);
 
-/// `wo`: unit, cloth frame, wo.z > 0. `sampler`: prepares what that sampler needs.
+/// `wo`: unit, cloth frame, wo.z > 0. The three prepare what evaluation, one sampler, or both need.
+void prepare_threads(const Fabric& fabric, const Vec3& wo, FabricView& view);
+void prepare_sampler(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, SamplerView& view);
 void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view);
 
 Color evaluate(const FabricView& view, const Vec3& wi);
 ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi);
 Color combine_parts(const Fabric& fabric, const ThreadSums<float>& parts);
-float pdf(const FabricView& view, FabricSampler sampler, const Vec3& wi);
-BsdfValue evaluate(const FabricView& view, FabricSampler sampler, const Vec3& wi);
+float pdf(const SamplerView& view, const Vec3& wi);
+BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi);
 
 /// Numbers that `sample` wants, all in [0, 1).
 struct FabricRandom {
@@ -71,8 +79,8 @@ struct FabricRandom {
   std::array<double, 2> direction{0, 0};
 };
 
-/// A direction drawn from `sampler`; nullopt where it falls below the cloth (the talk's sampler alone).
-std::optional<Vec3> sample(const FabricView& view, FabricSampler sampler, const FabricRandom& u);
+/// A direction drawn by the view's sampler; nullopt where it falls below the cloth (the talk's sampler alone).
+std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u);
 
 /// Reflectance for light from everywhere at a view: R = surface + A_warp volume[0] + A_weft volume[1], by midpoint
 /// quadrature in theta and phi (192 x 96 points: error below 1e-3 for gamma_s >= 2 degrees).

@@ -78,7 +78,7 @@ std::vector<BsdfValue> lobe_values(const Fabric& fabric, FabricSampler sampler, 
   for (size_t i = 0; i < pairs.size(); ++i) {
     if (!(pairs[i].wo.z > 0)) continue;
     prepare_view(fabric, pairs[i].wo, sampler, *view);
-    values[i] = evaluate(*view, sampler, pairs[i].wi);
+    values[i] = evaluate_with_pdf(*view, pairs[i].wi);
   }
   return values;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "integrator/strategy.h"
@@ -21,12 +22,18 @@ struct RayCounts {
   std::int64_t non_finite = 0;  ///< estimates that were not finite and were dropped: a fault, reported
 };
 
-/// One unbiased estimate of the environment's light by way of the cloth at `point`, shadowed by the cloth.
-/// `view` is prepared for the strategy's sampler at point.wo. `index` is the sample's place in the pixel's sequence.
-LobeLight direct_light(const Scene& scene, const ClothPoint& point, const FabricView& view,
-                       const LightSettings& settings, Sequence sequence, std::uint32_t index, RayCounts& counts);
+/// What a thread needs to trace; large, so one is kept a thread.
+struct PathScratch {
+  FabricView view;                              ///< of the hit that is being lit
+  FabricView vertex;                            ///< of the vertex that a path leaves
+  std::array<SamplerView, batch_size> samplers; ///< of a batch of hits
+  RayCounts counts;
+};
 
-/// Share of light that passes from a point along a world direction to the environment: 0 or 1, or what gaps let pass.
-float transmittance(const Scene& scene, const ClothPoint& point, const Vec3& direction, RayCounts& counts);
+/// One unbiased estimate for each of up to batch_size points of the environment's light by way of the cloth,
+/// shadowed by the cloth. `samples` holds each point's sequence and its place in it. An estimate has the same bits in
+/// any batch.
+void direct_light(const Scene& scene, std::span<const ClothPoint> points, const LightSettings& settings,
+                  const SequenceBatch& samples, PathScratch& scratch, LobeLight* light);
 
 }  // namespace sateen

@@ -20,31 +20,49 @@ bool keep(const LobeLight& light, RayCounts& counts) {
   return false;
 }
 
-/// Light after two and more meetings: from `point`, whose view is in scratch, on. Overwrites the view.
-Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoint point, std::uint32_t seed, int x,
-                     int y, int replicate, std::uint32_t index, PathScratch& scratch) {
+/// A batch of one: sample `id` at its `bounce`-th vertex, or its layer -bounce.
+SequenceBatch alone(std::uint32_t seed, const SampleId& id, int bounce) {
+  SequenceBatch batch;
+  batch.count = 1;
+  batch.seed[0] = pixel_sequence(seed, id.x, id.y, id.replicate, bounce).seed;
+  batch.index[0] = id.index;
+  return batch;
+}
+
+LobeLight direct_light(const Scene& scene, const ClothPoint& point, const LightSettings& settings,
+                       const SequenceBatch& sample, PathScratch& scratch) {
+  LobeLight light;
+  direct_light(scene, {&point, 1}, settings, sample, scratch, &light);
+  return light;
+}
+
+/// Light after two and more meetings: from `point` on.
+Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoint point, std::uint32_t seed,
+                     const SampleId& id, PathScratch& scratch) {
   const FabricSampler sampler = strategy_sampler(settings.strategy);
   Color light(0), throughput(1);
   for (int bounce = 1; bounce <= settings.bounces; ++bounce) {
     // The numbers of the vertex that is left may also have served its direct light, which is added to this. Those of
     // the vertex that is met must be others: its light is multiplied by what was drawn on the way to it.
-    const Sequence left = pixel_sequence(seed, x, y, replicate, bounce - 1);
-    const Sequence met = pixel_sequence(seed, x, y, replicate, bounce);
+    const Sequence left = alone(seed, id, bounce - 1).sequence(0);
+    const SequenceBatch met_batch = alone(seed, id, bounce);
+    const Sequence met = met_batch.sequence(0);
     FabricRandom u;
-    u.choice = draw(left, Dimension::table_view, index);
-    u.thread = draw2(left, Dimension::talk_thread, index);
+    u.choice = draw(left, Dimension::table_view, id.index);
+    u.thread = draw2(left, Dimension::talk_thread, id.index);
     const Dimension used = sampler == FabricSampler::table  ? Dimension::table
                            : sampler == FabricSampler::talk ? Dimension::talk
                                                             : Dimension::uniform;
-    u.direction = draw2(left, used, index);
-    const std::optional<Vec3> wi = sample(scratch.view, sampler, u);
+    u.direction = draw2(left, used, id.index);
+    prepare_view(*point.fabric, point.wo, sampler, scratch.vertex);
+    const std::optional<Vec3> wi = sample(scratch.vertex.sampler, u);
     if (!wi) break;
-    const BsdfValue value = evaluate(scratch.view, sampler, *wi);
+    const BsdfValue value = evaluate_with_pdf(scratch.vertex, *wi);
     if (!(value.pdf > 0)) break;
     throughput *= value.f_cos / value.pdf;
     if (bounce > roulette_after) {
       const float stay = std::min(max_component(throughput), 0.95f);
-      if (!(float(draw(met, Dimension::roulette, index)) < stay)) break;
+      if (!(float(draw(met, Dimension::roulette, id.index)) < stay)) break;
       throughput /= stay;
     }
     if (!(max_component(throughput) > 0)) break;
@@ -59,7 +77,7 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
     if (!hit) break;  // the environment was counted at the vertex before
     point = cloth_point(scene, *hit, direction);
     // Each layer of sheer cloth is passed with its gaps' probability.
-    double pass = point.fabric->gap > 0 ? draw(met, Dimension::gap, index) : 1;
+    double pass = point.fabric->gap > 0 ? draw(met, Dimension::gap, id.index) : 1;
     for (int layer = 0; hit && pass < double(point.fabric->gap) && layer < most_layers; ++layer) {
       pass /= double(point.fabric->gap);
       ray.origin = offset_origin(point.surface, direction);
@@ -71,65 +89,111 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
     // What scatters here was chosen with the probability of not passing; F holds the gaps' share already.
     throughput /= 1 - point.fabric->gap;
 
-    prepare_view(*point.fabric, point.wo, sampler, scratch.view);
-    const LobeLight direct = direct_light(scene, point, scratch.view, settings, met, index, scratch.counts);
+    const LobeLight direct = direct_light(scene, point, settings, met_batch, scratch);
     if (keep(direct, scratch.counts)) light += throughput * direct.total();
   }
   return light;
 }
 
-}  // namespace
+/// The backdrop, of which `passed` reaches the eye.
+void see_backdrop(const Scene& scene, const Vec3& direction, float passed, CameraSample& out) {
+  if (scene.backdrop == Backdrop::environment)
+    out.backdrop = environment_backdrop(scene.environment, direction) * passed;
+  else if (scene.backdrop == Backdrop::plain)
+    out.backdrop = scene.backdrop_color * passed;
+  out.alpha = scene.backdrop == Backdrop::none ? 1 - passed : 1;
+}
 
-CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed, int x, int y,
-                          int replicate, std::uint32_t index, PathScratch& scratch) {
-  CameraSample out;
-  const Sequence sequence = pixel_sequence(seed, x, y, replicate);
-  const Vec2 place = sample_filter(draw2(sequence, Dimension::film, index));
-  Ray ray = scene.camera.ray(float(x) + 0.5f + place.x, float(y) + 0.5f + place.y);
-  float passed = 1;
-  for (int layer = 0; layer < most_layers; ++layer) {
+/// Adds the light of one layer of cloth, of which `passed` reaches the eye.
+void add_layer(const Scene& scene, const LightSettings& settings, const ClothPoint& point, const LobeLight& direct,
+               std::uint32_t seed, const SampleId& id, float passed, PathScratch& scratch, CameraSample& out) {
+  if (keep(direct, scratch.counts))
+    for (int family = 0; family < 2; ++family) {
+      out.direct.surface[family] += direct.surface[family] * passed;
+      out.direct.volume[family] += direct.volume[family] * passed;
+    }
+  if (settings.bounces == 0) return;
+  const Color indirect = indirect_light(scene, settings, point, seed, id, scratch) * passed;
+  if (finite(indirect))
+    out.indirect += indirect;
+  else
+    ++scratch.counts.non_finite;
+}
+
+/// What is seen through the gaps of the first layer of sheer cloth.
+void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, Ray ray, std::uint32_t seed,
+                  const SampleId& id, PathScratch& scratch, CameraSample& out) {
+  float passed = point.fabric->gap;
+  for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
+    ray.origin = offset_origin(point.surface, ray.direction);
     ++scratch.counts.camera;
     const std::optional<Hit> hit = scene.rays->closest_hit(ray);
-    if (!hit) {
-      if (scene.backdrop == Backdrop::environment)
-        out.backdrop = environment_backdrop(scene.environment, ray.direction) * passed;
-      else if (scene.backdrop == Backdrop::plain)
-        out.backdrop = scene.backdrop_color * passed;
-      out.alpha = scene.backdrop == Backdrop::none ? 1 - passed : 1;
-      return out;
-    }
-    const ClothPoint point = cloth_point(scene, *hit, ray.direction);
-    prepare_view(*point.fabric, point.wo, strategy_sampler(settings.strategy), scratch.view);
-    // A sheer layer behind another gets numbers of its own.
-    const Sequence here = layer == 0 ? sequence : pixel_sequence(seed, x, y, replicate, -layer);
-    const LobeLight direct = direct_light(scene, point, scratch.view, settings, here, index, scratch.counts);
-    if (keep(direct, scratch.counts))
-      for (int family = 0; family < 2; ++family) {
-        out.direct.surface[family] += direct.surface[family] * passed;
-        out.direct.volume[family] += direct.volume[family] * passed;
-      }
-    if (!out.hit) {
-      out.hit = true;
-      out.position = point.surface.position;
-      out.normal = point.frame.z;
-      out.warp = point.frame.x;
-      out.uv = point.surface.uv;
-      out.wo = point.wo;
-      out.back = scene.back && point.fabric == &*scene.back;
-    }
-    if (settings.bounces > 0) {
-      const Color indirect =
-          indirect_light(scene, settings, point, seed, x, y, replicate, index, scratch) * passed;
-      if (finite(indirect))
-        out.indirect += indirect;
-      else
-        ++scratch.counts.non_finite;
-    }
+    if (!hit) return see_backdrop(scene, ray.direction, passed, out);
+    point = cloth_point(scene, *hit, ray.direction);
+    // Another layer gets numbers of its own.
+    const LobeLight direct = direct_light(scene, point, settings, alone(seed, id, -layer), scratch);
+    add_layer(scene, settings, point, direct, seed, id, passed, scratch, out);
     passed *= point.fabric->gap;
-    if (!(passed > 0)) break;
-    ray.origin = offset_origin(point.surface, ray.direction);
   }
-  out.alpha = 1;
+}
+
+}  // namespace
+
+void trace_samples(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                   std::span<const SampleId> samples, PathScratch& scratch, CameraSample* out) {
+  const SequenceBatch all = pixel_sequences(seed, samples);
+  const Batch2 film = draw2(all, Dimension::film);
+  std::array<Ray, batch_size> rays;
+  for (size_t k = 0; k < samples.size(); ++k) {
+    const Vec2 place = sample_filter(film[k]);
+    rays[k] = scene.camera.ray(float(samples[k].x) + 0.5f + place.x, float(samples[k].y) + 0.5f + place.y);
+  }
+  std::array<Hit, batch_size> hits;
+  std::array<bool, batch_size> found;
+  static_assert(batch_size == RayTracer::packet_size);
+  scene.rays->closest_hits({rays.data(), samples.size()}, hits.data(), found.data());
+  scratch.counts.camera += std::int64_t(samples.size());
+
+  // The hits move together.
+  std::array<ClothPoint, batch_size> points;
+  std::array<size_t, batch_size> sample_of;
+  SequenceBatch met;
+  for (size_t k = 0; k < samples.size(); ++k) {
+    out[k] = {};
+    if (!found[k]) {
+      see_backdrop(scene, rays[k].direction, 1, out[k]);
+      continue;
+    }
+    const auto n = size_t(met.count++);
+    points[n] = cloth_point(scene, hits[k], rays[k].direction);
+    sample_of[n] = k;
+    met.seed[n] = all.seed[k];
+    met.index[n] = all.index[k];
+  }
+  if (met.count == 0) return;
+  std::array<LobeLight, batch_size> direct;
+  direct_light(scene, {points.data(), size_t(met.count)}, settings, met, scratch, direct.data());
+  for (size_t n = 0; n < size_t(met.count); ++n) {
+    const size_t k = sample_of[n];
+    const ClothPoint& point = points[n];
+    CameraSample& sample = out[k];
+    sample.hit = true;
+    sample.position = point.surface.position;
+    sample.normal = point.frame.z;
+    sample.warp = point.frame.x;
+    sample.uv = point.surface.uv;
+    sample.wo = point.wo;
+    sample.back = scene.back && point.fabric == &*scene.back;
+    sample.alpha = 1;
+    add_layer(scene, settings, point, direct[n], seed, samples[k], 1, scratch, sample);
+    if (point.fabric->gap > 0) look_through(scene, settings, point, rays[k], seed, samples[k], scratch, sample);
+  }
+}
+
+CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const SampleId& sample,
+                          PathScratch& scratch) {
+  CameraSample out;
+  trace_samples(scene, settings, seed, {&sample, 1}, scratch, &out);
   return out;
 }
 

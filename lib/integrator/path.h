@@ -11,22 +11,21 @@ struct CameraSample {
   Color backdrop{0, 0, 0};
   float alpha = 0;           ///< 1 where the backdrop is seen, else the cloth's opacity
   bool hit = false;          ///< the values below are those of the first surface met
-  Vec3 position, normal, warp;
-  Vec2 uv;
-  Vec3 wo;                   ///< cloth frame
+  Vec3 position{0, 0, 0}, normal{0, 0, 0}, warp{0, 0, 0};
+  Vec2 uv{0, 0};
+  Vec3 wo{0, 0, 1};          ///< cloth frame
   bool back = false;         ///< the cloth's back is seen
 
   Color total() const { return direct.total() + indirect + backdrop; }
 };
 
-/// What a thread needs to trace; large, so one is kept a thread.
-struct PathScratch {
-  FabricView view;
-  RayCounts counts;
-};
+/// Up to batch_size samples of one picture, side by side; those that run close together, as in one pixel, gain most.
+/// A sample has the same bits in any batch. Pixel filter: see film/filter.h.
+void trace_samples(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                   std::span<const SampleId> samples, PathScratch& scratch, CameraSample* out);
 
-/// One sample of the pixel (x, y), `index`-th of its replicate. Pixel filter: see film/filter.h.
-CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed, int x, int y,
-                          int replicate, std::uint32_t index, PathScratch& scratch);
+/// One sample alone, several times as slow as in a batch.
+CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const SampleId& sample,
+                          PathScratch& scratch);
 
 }  // namespace sateen

@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -48,6 +49,31 @@ Window window_of(const RenderSettings& settings, const Film& film) {
   return {std::max(c.x0, 0), std::max(c.y0, 0), std::min(c.x1, film.width), std::min(c.y1, film.height)};
 }
 
+/// Adds `count` samples to the pixels from x0 to x1 of row y, in batches that run on from pixel to pixel.
+void trace_row(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film, int y, int x0,
+               int x1, int count, PathScratch& scratch) {
+  std::array<SampleId, batch_size> ids;
+  std::array<CameraSample, batch_size> samples;
+  size_t waiting = 0;
+  const auto at = [&](const SampleId& id) { return size_t(id.y) * size_t(film.width) + size_t(id.x); };
+  const auto trace = [&] {
+    trace_samples(scene, settings.light, settings.seed, {ids.data(), waiting}, scratch, samples.data());
+    for (size_t k = 0; k < waiting; ++k) {
+      const size_t i = at(ids[k]);
+      add_sample(film.pixels[i], film.layers.empty() ? nullptr : &film.layers[i], samples[k], albedo);
+    }
+    waiting = 0;
+  };
+  for (int x = x0; x < x1; ++x) {
+    const std::uint32_t first = film.pixels[at({x, y, 0, 0})].samples;
+    for (std::uint32_t n = first; n < first + std::uint32_t(count); ++n) {
+      ids[waiting++] = {x, y, int(n % replicates), n / replicates};
+      if (waiting == ids.size()) trace();
+    }
+  }
+  if (waiting > 0) trace();
+}
+
 /// Adds `count` samples to every pixel of the window; `tell` hears the share that is done. Returns false when
 /// interrupted.
 bool render_pass(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film, int count,
@@ -68,15 +94,7 @@ bool render_pass(const Scene& scene, const RenderSettings& settings, const Albed
         whole = false;
         break;
       }
-      for (int x = x0; x < std::min(x0 + tile_size, w.x1); ++x) {
-        const size_t i = size_t(y) * size_t(film.width) + size_t(x);
-        FilmPixel& pixel = film.pixels[i];
-        for (int k = 0; k < count; ++k)
-          add_sample(pixel, film.layers.empty() ? nullptr : &film.layers[i],
-                     trace_sample(scene, settings.light, settings.seed, x, y, int(pixel.samples % replicates),
-                                  pixel.samples / replicates, *scratch),
-                     albedo);
-      }
+      trace_row(scene, settings, albedo, film, y, x0, std::min(x0 + tile_size, w.x1), count, *scratch);
     }
     const std::lock_guard lock(merging);
     rays.camera += scratch->counts.camera;

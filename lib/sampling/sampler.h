@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace sateen {
 
@@ -34,5 +36,28 @@ Sequence pixel_sequence(std::uint32_t seed, int x, int y, int replicate, int bou
 /// Scrambling", JCGT 9(4), 2020). Every block of 2^k consecutive points from a multiple of 2^k is a (0, k, 2)-net.
 double draw(Sequence sequence, Dimension dimension, std::uint32_t index);
 std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_t index);
+
+/// Samples that are computed side by side: as many as one packet of rays holds.
+inline constexpr int batch_size = 16;
+
+/// One sample of a pixel: the `index`-th of a replicate.
+struct SampleId {
+  int x = 0, y = 0, replicate = 0;
+  std::uint32_t index = 0;
+};
+
+/// `count` (at most batch_size) sequences or points at once, the same bits as one by one in a fraction of the time:
+/// the hashes of neighbours do not wait for one another.
+struct SequenceBatch {
+  int count = 0;
+  std::array<std::uint32_t, batch_size> seed{}, index{};
+
+  Sequence sequence(int k) const { return {seed[std::size_t(k)]}; }
+};
+SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samples);
+using Batch1 = std::array<double, batch_size>;
+using Batch2 = std::array<std::array<double, 2>, batch_size>;
+Batch1 draw(const SequenceBatch& batch, Dimension dimension);
+Batch2 draw2(const SequenceBatch& batch, Dimension dimension);
 
 }  // namespace sateen

@@ -150,6 +150,11 @@ RayTracer::RayTracer(const Mesh& mesh, int threads) : state_(std::make_unique<St
 RayTracer::~RayTracer() = default;
 RayTracer::RayTracer(RayTracer&&) noexcept = default;
 
+namespace {
+// Slivers may return coordinates a little outside.
+float inside(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
+}  // namespace
+
 std::optional<Hit> RayTracer::closest_hit(const Ray& ray) const {
   if (!is_traceable(ray)) return std::nullopt;
   RTCIntersectContext context;
@@ -160,9 +165,37 @@ std::optional<Hit> RayTracer::closest_hit(const Ray& ray) const {
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->scene, &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID || !std::isfinite(query.ray.tfar)) return std::nullopt;
-  // Slivers may return coordinates a little outside.
-  const auto inside = [](float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; };
   return Hit{query.ray.tfar, query.hit.primID, inside(query.hit.u), inside(query.hit.v)};
+}
+
+void RayTracer::closest_hits(std::span<const Ray> rays, Hit* hits, bool* found) const {
+  alignas(64) int valid[packet_size];
+  alignas(64) RTCRayHit16 packet;
+  for (int k = 0; k < packet_size; ++k) {
+    valid[k] = k < int(rays.size()) && is_traceable(rays[size_t(k)]) ? -1 : 0;
+    // Lanes without a ray are never looked at; they hold a copy so that nothing is read unset.
+    const Ray& ray = rays[valid[k] ? size_t(k) : 0];
+    packet.ray.org_x[k] = ray.origin.x;
+    packet.ray.org_y[k] = ray.origin.y;
+    packet.ray.org_z[k] = ray.origin.z;
+    packet.ray.dir_x[k] = ray.direction.x;
+    packet.ray.dir_y[k] = ray.direction.y;
+    packet.ray.dir_z[k] = ray.direction.z;
+    packet.ray.tnear[k] = std::max(ray.t_min, 0.0f);
+    packet.ray.tfar[k] = ray.t_max;
+    packet.ray.time[k] = 0;
+    packet.ray.mask[k] = 0xffffffffu;
+    packet.ray.id[k] = packet.ray.flags[k] = 0;
+    packet.hit.geomID[k] = packet.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, state_->scene, &context, &packet);
+  for (int k = 0; k < int(rays.size()); ++k) {
+    found[k] = valid[k] && packet.hit.geomID[k] != RTC_INVALID_GEOMETRY_ID && std::isfinite(packet.ray.tfar[k]);
+    hits[k] = {packet.ray.tfar[k], packet.hit.primID[k], inside(packet.hit.u[k]), inside(packet.hit.v[k])};
+  }
 }
 
 bool RayTracer::occluded(const Ray& ray) const {

@@ -93,8 +93,8 @@ void samplers() {
       FabricRandom u;
       u.choice = draw(sequence, Dimension::table_view, i);
       u.direction = draw2(sequence, Dimension::table, i);
-      const Vec3 w = *sample(*view, FabricSampler::table, u);
-      const double f = mean_component(evaluate(*view, w)), x = f / pdf(*view, FabricSampler::table, w);
+      const Vec3 w = *sample(view->sampler, u);
+      const double f = mean_component(evaluate(*view, w)), x = f / pdf(view->sampler, w);
       sum += x / n;
       squares += x * x / n;
       uniform_squares += f * x * 2 * double(pi) / n;
@@ -110,12 +110,12 @@ void samplers() {
     const double sample_ns = nanoseconds(15, 5, [&] {
       for (std::uint32_t i = 0; i < 1024; ++i) {
         const double a = (i * 0.618033988749895), b = i * 0.754877666246693;
-        sink = sample_table(view->table, a - std::floor(a), b - std::floor(b), (i + 0.5) / 1024).x;
+        sink = sample_table(view->sampler.table, a - std::floor(a), b - std::floor(b), (i + 0.5) / 1024).x;
       }
     }) / 1024;
     const double pdf_ns = nanoseconds(15, 5, [&] {
       float all = 0;
-      for (const Vec3& d : wi) all += table_pdf(view->table, d);
+      for (const Vec3& d : wi) all += table_pdf(view->sampler.table, d);
       sink = all;
     }) / double(wi.size());
     fmt::print("{:<28}{:>12.3f}{:>12.0f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.4f}\n", name, compile,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -91,26 +92,30 @@ void rays() {
       light.strategy = strategy;
       light.candidates = 4;
       auto scratch = std::make_unique<PathScratch>();
-      constexpr int samples = 2;
+      // The rays of the picture's first samples, in the batches that a pass makes of them.
+      constexpr int samples = 4;
+      std::vector<SampleId> ids;
+      for (int y = 0; y < scene.camera.height; ++y)
+        for (int x = 0; x < scene.camera.width; ++x)
+          for (int i = 0; i < samples; ++i) ids.push_back({x, y, i % replicates, std::uint32_t(i / replicates)});
       const auto render_all = [&] {
         float sum = 0;
-        for (int y = 0; y < scene.camera.height; ++y)
-          for (int x = 0; x < scene.camera.width; ++x)
-            for (int i = 0; i < samples; ++i)
-              sum += trace_sample(scene, light, 1, x, y, i % replicates, std::uint32_t(i / replicates), *scratch).alpha;
+        std::array<CameraSample, batch_size> out;
+        for (size_t first = 0; first < ids.size(); first += batch_size) {
+          const size_t count = std::min(ids.size() - first, size_t(batch_size));
+          trace_samples(scene, light, 1, {&ids[first], count}, *scratch, out.data());
+          for (size_t k = 0; k < count; ++k) sum += out[k].alpha + out[k].direct.surface[0].x;
+        }
         sink = sum;
       };
       std::vector<Ray> shadow, camera;
       scratch->counts.log = &shadow;
       render_all();
       scratch->counts.log = nullptr;
-      for (int y = 0; y < scene.camera.height; ++y)
-        for (int x = 0; x < scene.camera.width; ++x)
-          for (int i = 0; i < samples; ++i) {
-            const Vec2 at = sample_filter(draw2(pixel_sequence(1, x, y, i % replicates), Dimension::film,
-                                                std::uint32_t(i / replicates)));
-            camera.push_back(scene.camera.ray(float(x) + 0.5f + at.x, float(y) + 0.5f + at.y));
-          }
+      for (const SampleId& id : ids) {
+        const Vec2 at = sample_filter(draw2(pixel_sequence(1, id.x, id.y, id.replicate), Dimension::film, id.index));
+        camera.push_back(scene.camera.ray(float(id.x) + 0.5f + at.x, float(id.y) + 0.5f + at.y));
+      }
       const double count = double(camera.size() + shadow.size());
       require(scratch->counts.camera == std::int64_t(camera.size()), "number of camera rays");
       const Pair pair = interleaved(5, render_all, [&] {

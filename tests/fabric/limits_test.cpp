@@ -101,19 +101,19 @@ void torture(const Look& look, Random& random, int views, int lights, bool with_
         const ThreadSums<float> s = evaluate_parts(*view, wi);
         const auto text = [&] {
           return fmt::format("wo {} {} {:g} wi {} {} {:g}: S {} {} V {} {} pdf {}", wo.x, wo.y, wo.z, wi.x, wi.y,
-                             wi.z, s.surface[0], s.surface[1], s.volume[0], s.volume[1], pdf(*view, sampler, wi));
+                             wi.z, s.surface[0], s.surface[1], s.volume[0], s.volume[1], pdf(view->sampler, wi));
         };
-        faults.check(good(s) && good(pdf(*view, sampler, wi)),
-                     good(s) && good(pdf(*view, sampler, wi)) ? "" : text());
+        faults.check(good(s) && good(pdf(view->sampler, wi)),
+                     good(s) && good(pdf(view->sampler, wi)) ? "" : text());
         if (!(wi.z > 0)) {
           EXPECT_EQ(s.surface[0] + s.volume[0] + s.surface[1] + s.volume[1], 0);
         }
         const FabricRandom u{edge_number(random),
                              {edge_number(random), edge_number(random)},
                              {edge_number(random), edge_number(random)}};
-        const std::optional<Vec3> drawn = sample(*view, sampler, u);
+        const std::optional<Vec3> drawn = sample(view->sampler, u);
         if (!drawn) continue;
-        const float p = pdf(*view, sampler, *drawn);
+        const float p = pdf(view->sampler, *drawn);
         const double f = brightness(fabric, evaluate_parts(*view, *drawn));
         const double length2 = double(dot(*drawn, *drawn));
         const bool fine = std::abs(length2 - 1) < 1e-5 && drawn->z > 0 && p > 0 && good(f) && good(p) && good(f / p);

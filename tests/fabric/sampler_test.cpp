@@ -67,11 +67,11 @@ std::vector<double> table_columns() {
 std::vector<double> expected_mass(const FabricView& view, FabricSampler sampler, double tolerance) {
   std::vector<double> mass(theta_bins * phi_bins, 0);
   const auto density = [&](double theta, double phi) {
-    return double(pdf(view, sampler, warp_direction(theta, phi))) * std::cos(theta);
+    return double(pdf(view.sampler, warp_direction(theta, phi))) * std::cos(theta);
   };
   const auto bin = [](double x, int bins) { return std::clamp(int((x + half_pi) / M_PI * bins), 0, bins - 1); };
   if (sampler == FabricSampler::table) {
-    const std::vector<double> rows = table_rows(view.table), columns = table_columns();
+    const std::vector<double> rows = table_rows(view.sampler.table), columns = table_columns();
     for (size_t i = 0; i + 1 < rows.size(); ++i)
       for (size_t j = 0; j + 1 < columns.size(); ++j) {
         const double theta = (rows[i] + rows[i + 1]) / 2, phi = (columns[j] + columns[j + 1]) / 2;
@@ -253,9 +253,9 @@ TEST(Samplers, EstimateTheSameReflectance) {
           u.choice = random.uniform();
           u.thread = {random.uniform(), random.uniform()};
           u.direction = {random.uniform(), random.uniform()};
-          const std::optional<Vec3> wi = sample(*view, sampler, u);
+          const std::optional<Vec3> wi = sample(view->sampler, u);
           if (!wi) continue;
-          const double w = brightness(fabric, evaluate_parts(*view, *wi)) / double(pdf(*view, sampler, *wi));
+          const double w = brightness(fabric, evaluate_parts(*view, *wi)) / double(pdf(view->sampler, *wi));
           sum += w;
           squares += w * w;
         }

@@ -24,7 +24,7 @@ double slope(const Scene& scene, const LightSettings& light, int seeds) {
       double sum = 0;
       for (int k = 0; k < samples; ++k)
         sum +=
-            double(trace_sample(scene, light, 500 + std::uint32_t(seed), 0, 0, k % 4, std::uint32_t(k / 4), *scratch)
+            double(trace_sample(scene, light, 500 + std::uint32_t(seed), {0, 0, k % 4, std::uint32_t(k / 4)}, *scratch)
                        .total()
                        .y);
       values.add(sum / samples);

@@ -67,7 +67,7 @@ Estimate estimate(const Scene& scene, const LightSettings& light, int samples) {
     Vec3d sum(0);
     for (int k = 0; k < samples; ++k) {
       const CameraSample s =
-          trace_sample(scene, light, 77 + std::uint32_t(b), 0, 0, k % 4, std::uint32_t(k / 4), *scratch);
+          trace_sample(scene, light, 77 + std::uint32_t(b), {0, 0, k % 4, std::uint32_t(k / 4)}, *scratch);
       sum += Vec3d(s.total());
       out.alpha += double(s.alpha) / (samples * batches);
       out.backdrop += Vec3d(s.backdrop) / double(samples * batches);

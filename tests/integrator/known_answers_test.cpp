@@ -118,8 +118,8 @@ TEST(Bounces, AddNothingOnAConvexMesh) {
     LightSettings direct_only = settings.light;
     direct_only.bounces = 0;
     for (int pixel = 0; pixel < 144; ++pixel) {
-      const CameraSample with = trace_sample(scene, settings.light, 3, pixel % 12, pixel / 12, 1, 5, *scratch);
-      const CameraSample without = trace_sample(scene, direct_only, 3, pixel % 12, pixel / 12, 1, 5, *scratch);
+      const CameraSample with = trace_sample(scene, settings.light, 3, {pixel % 12, pixel / 12, 1, 5}, *scratch);
+      const CameraSample without = trace_sample(scene, direct_only, 3, {pixel % 12, pixel / 12, 1, 5}, *scratch);
       EXPECT_EQ(with.total(), without.total()) << settings.name << " in pixel " << pixel;
       hits += with.hit;
     }

@@ -25,8 +25,8 @@ PictureBatches render_batches(const Scene& scene, const LightSettings& light, in
       for (int x = 0; x < out.width; ++x) {
         Vec3d sum(0);
         for (int k = 0; k < samples; ++k)
-          sum += Vec3d(trace_sample(scene, light, first_seed + std::uint32_t(b), x, y, k % replicates,
-                                    std::uint32_t(k / replicates), *scratch)
+          sum += Vec3d(trace_sample(scene, light, first_seed + std::uint32_t(b), {x, y, k % replicates, std::uint32_t(k / replicates)},
+                                    *scratch)
                            .total());
         for (int c = 0; c < 3; ++c)
           out.values[size_t(b)][size_t((y * out.width + x) * 3 + c)] = float(sum[c] / samples);
