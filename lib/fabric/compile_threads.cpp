@@ -86,9 +86,11 @@ void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangen
     for (int k = 0; k < panel_nodes; ++k) out.sign_change[j][k] = Real(rows[j][k]);
 }
 
+constexpr int padding = 16;  // two blocks of 8, as the widest kernel takes them
+
 template <class Real>
 void pad(Threads<Real>& t) {
-  while (t.start.size() % 8) {
+  while (t.start.size() % padding) {
     for (std::vector<Real>* values :
          {&t.start, &t.span, &t.node, &t.flat, &t.inverse_span, &t.along_x, &t.eta2, &t.eta2_minus_1,
           &t.surface_exponent, &t.surface_norm, &t.volume_exponent, &t.volume_norm, &t.isotropic})
@@ -104,9 +106,9 @@ Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp,
   for (int family = 0; family < 2; ++family) threads.slope_from[family] = 10, threads.slope_to[family] = -10;
   add_families(threads, look, warp, weft);
   if (threads.start.empty()) throw InputError("the look has no threads: both coverages are 0");
-  if (threads.start.size() + 8 > most_tangents)
+  if (threads.start.size() + padding > most_tangents)
     throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible", threads.start.size(),
-                                 most_tangents - 8),
+                                 most_tangents - padding),
                      "widen gamma_s_deg or gamma_v_deg, or give the curve fewer sloping pieces");
   pad(threads);
   for (int family = 0; family < 2; ++family) {
@@ -131,7 +133,7 @@ Threads<Real> compile_threads(const Look& look, const std::vector<Tangent>& warp
   constexpr double panel = grazing_panel_deg * std::numbers::pi / 180;
   const std::vector<Tangent> fine_warp = cut_panels(warp, panel), fine_weft = cut_panels(weft, panel);
   const size_t count = fine_warp.size() + fine_weft.size();
-  if (count > warp.size() + weft.size() && count + 8 <= most_tangents)
+  if (count > warp.size() + weft.size() && count + padding <= most_tangents)
     threads.grazing.push_back(compile_curves<Real>(look, fine_warp, fine_weft));
   return threads;
 }

@@ -14,7 +14,7 @@ struct ThreadSums {
   std::array<Real, 2> surface{}, volume{};  ///< warp, weft
 };
 
-/// All tangents of both families as arrays, compiled for one number type: float arrays run in Lanes of 8, double
+/// All tangents of both families as arrays, compiled for one number type: float arrays run in Lanes or WideLanes, double
 /// arrays one by one as the oracle. cloth-model.md sections 1 to 3. Compiled and immutable.
 template <class Real>
 struct Threads {
@@ -30,7 +30,7 @@ struct Threads {
   Real gap = 0;                                      ///< max(0, 1 - a_1 - a_2)
   Real slope_from[2], slope_to[2];  ///< extent of the sloping segments of warp and weft; from > to where none
   Real clip_free[2];                ///< all of them face wi while |wi.d| <= clip_free wi.z
-  int count = 0;                    ///< padded to a multiple of 8; the padding has no weight
+  int count = 0;                    ///< padded to a multiple of 16; the padding has no weight
 
   /// The first blocks of 8 tangents are panels of Gauss-Legendre nodes, `panels[0]` of the warp, then `panels[1]` of
   /// the weft: place of each panel's ends in its segment, and the integrals of sign_change().

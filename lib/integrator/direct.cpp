@@ -50,7 +50,8 @@ void direct_light(const Scene& scene, std::span<const ClothPoint> points, const 
   for (size_t k = 0; k < points.size(); ++k) {
     light[k] = {};
     bool prepared = false;
-    // Shadow ray first: a blocked direction costs no evaluation, and a point in full shadow not even the view's terms.
+    // Shadow ray first: a blocked direction costs no evaluation, and a point in full shadow not even the view's
+    // terms.
     for (const LightRay& ray : rays[k].chosen()) {
       const float seen = transmittance(scene, points[k], ray.world, scratch.counts);
       if (seen == 0) continue;

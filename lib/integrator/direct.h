@@ -24,9 +24,9 @@ struct RayCounts {
 
 /// What a thread needs to trace; large, so one is kept a thread.
 struct PathScratch {
-  FabricView view;                              ///< of the hit that is being lit
-  FabricView vertex;                            ///< of the vertex that a path leaves
-  std::array<SamplerView, batch_size> samplers; ///< of a batch of hits
+  FabricView view;                               ///< of the hit that is being lit
+  FabricView vertex;                             ///< of the vertex that a path leaves
+  std::array<SamplerView, batch_size> samplers;  ///< of a batch of hits
   RayCounts counts;
 };
 

@@ -10,7 +10,9 @@ namespace {
 
 constexpr int most_candidates = 64;
 
-float brightness(const Color& c) { return mean_component(c); }
+float brightness(const Color& c) {
+  return mean_component(c);
+}
 
 void add_ray(LightRays& rays, const Vec3& wi, const Vec3& world, const Color& radiance, float weight) {
   if (weight > 0 && max_component(radiance) > 0) rays.rays[size_t(rays.count++)] = {wi, world, radiance * weight};
@@ -18,7 +20,8 @@ void add_ray(LightRays& rays, const Vec3& wi, const Vec3& world, const Color& ra
 
 /// Directions of a batch that the map proposes.
 using Picks = std::array<EnvironmentPick, batch_size>;
-void pick_each(const Environment& environment, EnvironmentDensity density, const SequenceBatch& samples, Picks& picks) {
+void pick_each(const Environment& environment, EnvironmentDensity density, const SequenceBatch& samples,
+               Picks& picks) {
   const Batch2 u = draw2(samples, Dimension::environment);
   for (size_t k = 0; k < size_t(samples.count); ++k) {
     picks[k] = pick_environment(environment, density, u[k][0], u[k][1]);
@@ -39,7 +42,9 @@ void sample_each(const Environment& environment, FabricSampler sampler, const Se
   Batch1 choice{};
   Batch2 thread{}, direction{};
   switch (sampler) {
-    case FabricSampler::uniform: direction = draw2(samples, Dimension::uniform); break;
+    case FabricSampler::uniform:
+      direction = draw2(samples, Dimension::uniform);
+      break;
     case FabricSampler::talk:
       thread = draw2(samples, Dimension::talk_thread);
       direction = draw2(samples, Dimension::talk);
@@ -90,7 +95,8 @@ void resample(const Environment& environment, const ClothPoint& point, const Sam
       if (const Vec3 wi = point.frame.to_local(picks[j].direction); wi.z > 0)
         kept[n++] = {wi, picks[j].direction, picks[j].texel, 0, 0};
     }
-    for (size_t j = 0; j < size_t(candidates.count); ++j) kept[n++] = {*drawn[j].wi, drawn[j].world, drawn[j].texel, 0, 0};
+    for (size_t j = 0; j < size_t(candidates.count); ++j)
+      kept[n++] = {*drawn[j].wi, drawn[j].world, drawn[j].texel, 0, 0};
   }
   float sum = 0;
   for (size_t i = 0; i < n; ++i) {
@@ -158,7 +164,8 @@ struct Batch {
         if (const Vec3 wi = points[k].frame.to_local(picks[k].direction); wi.z > 0)
           add_ray(out[k], wi, picks[k].direction, picks[k].texel->radiance, weight(wi, *picks[k].texel));
       if (drawn[k].wi)
-        add_ray(out[k], *drawn[k].wi, drawn[k].world, drawn[k].texel->radiance, weight(*drawn[k].wi, *drawn[k].texel));
+        add_ray(out[k], *drawn[k].wi, drawn[k].world, drawn[k].texel->radiance,
+                weight(*drawn[k].wi, *drawn[k].texel));
     }
   }
 };
@@ -174,11 +181,15 @@ void choose_light_rays(const Scene& scene, std::span<const ClothPoint> points, c
   switch (settings.strategy) {
     case Strategy::uniform:
     case Strategy::talk:
-    case Strategy::table: return batch.by_fabric(sampler);
-    case Strategy::environment: return batch.by_environment();
+    case Strategy::table:
+      return batch.by_fabric(sampler);
+    case Strategy::environment:
+      return batch.by_environment();
     case Strategy::mis:
-    case Strategy::mis_talk: return batch.by_both(sampler, EnvironmentDensity::radiance);
-    case Strategy::mis_compensated: return batch.by_both(sampler, EnvironmentDensity::compensated);
+    case Strategy::mis_talk:
+      return batch.by_both(sampler, EnvironmentDensity::radiance);
+    case Strategy::mis_compensated:
+      return batch.by_both(sampler, EnvironmentDensity::compensated);
     case Strategy::resampled:
       for (size_t k = 0; k < points.size(); ++k)
         resample(scene.environment, points[k], views[k], samples.sequence(int(k)), samples.index[k],

@@ -8,12 +8,15 @@ namespace sateen {
 
 namespace {
 
-constexpr int most_layers = 64;          // of sheer cloth along one ray
-constexpr int roulette_after = 3;        // bounces that are always followed
+constexpr int most_layers = 64;    // of sheer cloth along one ray
+constexpr int roulette_after = 3;  // bounces that are always followed
 
-bool finite(const Color& c) { return std::isfinite(c.x + c.y + c.z); }
+bool finite(const Color& c) {
+  return std::isfinite(c.x + c.y + c.z);
+}
 
-// A value that is not finite is a fault somewhere below: it is dropped, counted and reported, never masked in silence.
+// A value that is not finite is a fault somewhere below: it is dropped, counted and reported, never masked in
+// silence.
 bool keep(const LobeLight& light, RayCounts& counts) {
   if (finite(light.total())) return true;
   ++counts.non_finite;
@@ -190,8 +193,8 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
   }
 }
 
-CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const SampleId& sample,
-                          PathScratch& scratch) {
+CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                          const SampleId& sample, PathScratch& scratch) {
   CameraSample out;
   trace_samples(scene, settings, seed, {&sample, 1}, scratch, &out);
   return out;

@@ -6,15 +6,15 @@ namespace sateen {
 /// What one camera sample brings to its pixel, working space. Light reaches the eye through `opacity` of the cloth
 /// in front; where there are no gaps that is 1 on the cloth and 0 beside it.
 struct CameraSample {
-  LobeLight direct;          ///< environment light after one meeting with the cloth
-  Color indirect{0, 0, 0};   ///< after two and more
+  LobeLight direct;         ///< environment light after one meeting with the cloth
+  Color indirect{0, 0, 0};  ///< after two and more
   Color backdrop{0, 0, 0};
-  float alpha = 0;           ///< 1 where the backdrop is seen, else the cloth's opacity
-  bool hit = false;          ///< the values below are those of the first surface met
+  float alpha = 0;   ///< 1 where the backdrop is seen, else the cloth's opacity
+  bool hit = false;  ///< the values below are those of the first surface met
   Vec3 position{0, 0, 0}, normal{0, 0, 0}, warp{0, 0, 0};
   Vec2 uv{0, 0};
-  Vec3 wo{0, 0, 1};          ///< cloth frame
-  bool back = false;         ///< the cloth's back is seen
+  Vec3 wo{0, 0, 1};   ///< cloth frame
+  bool back = false;  ///< the cloth's back is seen
 
   Color total() const { return direct.total() + indirect + backdrop; }
 };
@@ -25,7 +25,7 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
                    std::span<const SampleId> samples, PathScratch& scratch, CameraSample* out);
 
 /// One sample alone, several times as slow as in a batch.
-CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const SampleId& sample,
-                          PathScratch& scratch);
+CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                          const SampleId& sample, PathScratch& scratch);
 
 }  // namespace sateen

@@ -8,8 +8,8 @@
 namespace sateen {
 
 const std::vector<std::string>& strategy_names() {
-  static const std::vector<std::string> names{"uniform", "talk",            "table",    "environment",
-                                              "mis",     "mis-compensated", "mis-talk", "resampled"};
+  static const std::vector<std::string> names{"uniform",         "talk",     "table",    "environment", "mis",
+                                              "mis-compensated", "mis-talk", "resampled"};
   return names;
 }
 
@@ -20,14 +20,19 @@ Strategy strategy_from_name(const std::string& name) {
   throw InputError(fmt::format("unknown strategy '{}'", name), suggestion(name, names));
 }
 
-std::string strategy_name(Strategy strategy) { return strategy_names()[size_t(strategy)]; }
+std::string strategy_name(Strategy strategy) {
+  return strategy_names()[size_t(strategy)];
+}
 
 FabricSampler strategy_sampler(Strategy strategy) {
   switch (strategy) {
-    case Strategy::uniform: return FabricSampler::uniform;
+    case Strategy::uniform:
+      return FabricSampler::uniform;
     case Strategy::talk:
-    case Strategy::mis_talk: return FabricSampler::talk;
-    default: return FabricSampler::table;
+    case Strategy::mis_talk:
+      return FabricSampler::talk;
+    default:
+      return FabricSampler::table;
   }
 }
 

@@ -18,14 +18,14 @@ enum class Strategy {
   resampled         ///< candidates of table and compensated map, one kept, one shadow ray
 };
 
-const std::vector<std::string>& strategy_names();  ///< in the order of the enum, as on the command line
+const std::vector<std::string>& strategy_names();      ///< in the order of the enum, as on the command line
 Strategy strategy_from_name(const std::string& name);  ///< InputError with the nearest name
 std::string strategy_name(Strategy strategy);
 FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
 
 struct LightSettings {
-  /// Least error at equal time in 13 of 18 pairs of look and map (./dev bench strategies); resampling wins, by up to 1.6
-  /// times, in studios whose lights are small, and loses by 1.5 to 2.5 times under skies.
+  /// Least error at equal time in 13 of 18 pairs of look and map (./dev bench strategies); resampling wins, by up
+  /// to 1.6 times, in studios whose lights are small, and loses by 1.5 to 2.5 times under skies.
   Strategy strategy = Strategy::mis_compensated;
   int candidates = 4;  ///< of each kind, for resampling, 1 to 64
   int bounces = 0;     ///< light that meets cloth again, 0 to 64

@@ -19,7 +19,9 @@ inline std::uint32_t hash(std::uint32_t x) {
   x = (x ^ (x >> 15)) * 0x735a2d97u;
   return x ^ (x >> 15);
 }
-inline std::uint32_t combine(std::uint32_t seed, std::uint32_t value) { return hash(seed ^ hash(value + 0x9e3779b9u)); }
+inline std::uint32_t combine(std::uint32_t seed, std::uint32_t value) {
+  return hash(seed ^ hash(value + 0x9e3779b9u));
+}
 
 // Laine-Karras permutation: every bit is flipped by a hash of the bits below it. Constants of Burley 2020, listing 1.
 inline std::uint32_t permute_upwards(std::uint32_t x, std::uint32_t seed) {
@@ -52,17 +54,20 @@ inline Seeds seeds(Sequence sequence, Dimension dimension) {
   return {seed, seed * 0x9e3779b1u + 0x7f4a7c15u, seed * 0x85ebca77u + 0x165667b1u};
 }
 
-// Both coordinates of a point as 32-bit fractions. A Sobol coordinate has its most significant digit in bit 0 until it
-// is reversed: the permutation works upwards from there.
+// Both coordinates of a point as 32-bit fractions. A Sobol coordinate has its most significant digit in bit 0 until
+// it is reversed: the permutation works upwards from there.
 struct Digits {
   std::uint32_t first, second;
 };
 [[gnu::always_inline]] inline Digits digits(Sequence sequence, Dimension dimension, std::uint32_t index) {
   const Seeds s = seeds(sequence, dimension);
   const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), s.shuffle));
-  return {reverse_bits(permute_upwards(shuffled, s.first)), reverse_bits(permute_upwards(pascal(shuffled), s.second))};
+  return {reverse_bits(permute_upwards(shuffled, s.first)),
+          reverse_bits(permute_upwards(pascal(shuffled), s.second))};
 }
-double unit(std::uint32_t fraction) { return double(fraction) * 0x1p-32; }
+double unit(std::uint32_t fraction) {
+  return double(fraction) * 0x1p-32;
+}
 
 }  // namespace
 

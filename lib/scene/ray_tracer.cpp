@@ -152,7 +152,9 @@ RayTracer::RayTracer(RayTracer&&) noexcept = default;
 
 namespace {
 // Slivers may return coordinates a little outside.
-float inside(float x) { return x >= 0 ? std::min(x, 1.0f) : 0.0f; }
+float inside(float x) {
+  return x >= 0 ? std::min(x, 1.0f) : 0.0f;
+}
 }  // namespace
 
 std::optional<Hit> RayTracer::closest_hit(const Ray& ray) const {

@@ -107,7 +107,7 @@ ChiSquare test_sampler(const FabricView& view, FabricSampler sampler, int sample
     u.choice = random.uniform();
     u.thread = {random.uniform(), random.uniform()};
     u.direction = {random.uniform(), random.uniform()};
-    const std::optional<Vec3> wi = sample(view, sampler, u);
+    const std::optional<Vec3> wi = sample(view.sampler, u);
     if (!wi) {
       ++observed.back();
       continue;
@@ -192,7 +192,7 @@ double total_mass(const FabricView& view, FabricSampler sampler) {
   for (const double m : expected_mass(view, sampler, 1e-7)) total += m;
   if (sampler != FabricSampler::talk) return total;
   const auto density = [&](double theta, double phi) {
-    return double(talk_pdf(view.fabric->talk, view.talk, warp_direction(theta, phi + M_PI))) * std::cos(theta);
+    return double(talk_pdf(view.fabric->talk, view.sampler.talk, warp_direction(theta, phi + M_PI))) * std::cos(theta);
   };
   for (int a = 0; a < 40; ++a)
     for (int b = 0; b < 40; ++b) {

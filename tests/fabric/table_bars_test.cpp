@@ -26,7 +26,7 @@ Quality quality_at(const Fabric& fabric, const Vec3& wo, int samples, std::uint3
     FabricRandom u;
     u.choice = draw(sequence, Dimension::table_view, std::uint32_t(i));
     u.direction = draw2(sequence, Dimension::table, std::uint32_t(i));
-    const Vec3 wi = *sample(view, FabricSampler::table, u);
+    const Vec3 wi = *sample(view.sampler, u);
     const double f = brightness(fabric, evaluate_parts(view, wi)), w = f / double(table_pdf(view.sampler.table, wi));
     sum += w;
     squares += w * w;

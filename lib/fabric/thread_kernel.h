@@ -1,0 +1,380 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fabric/threads.h"
+#include "math/lane_functions.h"
+
+// The kernel of threads.h, written once over its vector type: Lanes or WideLanes over float arrays, double alone for
+// the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out of
+// the other.
+
+namespace sateen {
+
+namespace {
+
+/// How the kernel sees a vector type.
+template <class V>
+struct Vector {
+  using Real = float;
+  static constexpr int width = V::width;
+  static V load(const float* p) { return V::load(p); }
+  static void store(float* p, V v) { v.store(p); }
+  /// Eight numbers of a block of 8 tangents, for each of the blocks that are held.
+  static V every_block(const float* p, int) {
+    if constexpr (width == 16)
+      return V::twice(p);
+    else
+      return V::load(p);
+  }
+  /// A pair of numbers, of warp and weft, in the first two lanes.
+  static V pair(float warp, float weft, int) { return V::of(warp, weft, 1, 1); }
+  /// One number for each of the blocks that are held.
+  static V by_block(const float* values) {
+    if constexpr (width == 16)
+      return V::halves(values[0], values[1]);
+    else
+      return V(values[0]);
+  }
+};
+template <>
+struct Vector<double> {
+  using Real = double;
+  static constexpr int width = 1;
+  static double load(const double* p) { return *p; }
+  static void store(double* p, double v) { *p = v; }
+  static double every_block(const double* p, int lane) { return p[lane]; }
+  static double pair(double warp, double weft, int k) { return k == 0 ? warp : weft; }
+  static double by_block(const double* values) { return values[0]; }
+};
+
+/// Blocks of 8 tangents that V takes at once.
+template <class V>
+constexpr int blocks_at_once = Vector<V>::width == 16 ? 2 : 1;
+
+// cos theta below 1e-12 is far below what a unit direction in float can state (6e-8). The floor only keeps end-on
+// threads finite until M, which is 0 or finite there, decides the limit.
+constexpr float smallest_cos2 = 1e-24f;
+constexpr float smallest_projection2 = 1e-30f;
+constexpr double quarter_turn = 1.57079632679489662;
+
+/// atan2(across, along) for along >= 0.
+template <class V>
+V signed_angle(V across, V along) {
+  using Real = typename Vector<V>::Real;
+  const V magnitude = atan_magnitude(across, max(along, V(Real(1e-30f))));
+  return select_less(across, V(Real(0)), V(Real(0)) - magnitude, magnitude);
+}
+
+/// The offsets of both families that can face a direction.
+template <class V, class Real>
+void facing(const Real (&along)[2], Real z, Real (&from)[2], Real (&to)[2]) {
+  // w.n_t = hypot(d, z) cos(psi + alpha): seen while alpha stays within a quarter turn of -psi.
+  Real psi[16];
+  for (int k = 0; k < 2; k += Vector<V>::width)
+    Vector<V>::store(&psi[k], signed_angle(Vector<V>::pair(-along[0], -along[1], k), V(z)));
+  for (int family = 0; family < 2; ++family) {
+    from[family] = psi[family] - Real(quarter_turn);
+    to[family] = psi[family] + Real(quarter_turn);
+  }
+}
+
+/// Fills the view terms of the blocks from `block` on that V takes at once, with their nodes gathered in view.from
+/// ... view.to.
+template <class V, class Real>
+void fill_blocks(const Threads<Real>& t, int block, ThreadView<Real>& view) {
+  using Vec = Vector<V>;
+  const Real x = view.wo[0], y = view.wo[1], z = view.wo[2];
+  const V wx = V(x), wy = V(y), wz = V(z), zero = V(Real(0)), half = V(Real(0.5));
+  bool alive = false;
+  for (int k = block * 8; k < (block + blocks_at_once<V>)*8; k += Vec::width) {
+    const V is_warp = Vec::load(&t.along_x[k]);
+    const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
+    const V scale = select_less(half, is_warp, V(view.scale[0]), V(view.scale[1]));
+
+    const V flat = Vec::load(&t.flat[k]), a0 = Vec::load(&t.start[k]), a1 = a0 + Vec::load(&t.span[k]);
+    const V from = max(a0, select_less(half, is_warp, V(view.from[0]), V(view.from[1])));
+    const V to = min(a1, select_less(half, is_warp, V(view.to[0]), V(view.to[1])));
+    const V seen = max(to - from, zero);
+    const V offset = select_less(half, flat, a0, fma(seen, Vec::load(&t.node[k]), min(from, a1)));
+    const V weight = Vec::load(&t.weight[k]) * fma(seen, Vec::load(&t.inverse_span[k]), flat);
+    const V c = cos_quarter(offset), s = sin_quarter(offset);
+
+    const V normal = max(fnma(d, s, wz * c), zero);
+    const V cos_r = sqrt(max(fma(normal, normal, b * b), V(Real(smallest_cos2))));
+    const V inverse = V(Real(1)) / cos_r;
+    Vec::store(&view.cos_offset[k], c);
+    Vec::store(&view.sin_offset[k], s);
+    Vec::store(&view.weight_warp[k], weight * is_warp);
+    Vec::store(&view.weight_weft[k], weight * (V(Real(1)) - is_warp));
+    Vec::store(&view.sin_r[k], fma(d, c, wz * s));
+    Vec::store(&view.cos_r[k], cos_r);
+    Vec::store(&view.normal_r[k], normal * inverse);
+    Vec::store(&view.binormal_r[k], b * inverse);
+    Vec::store(&view.projected_r[k], normal * scale);
+    alive = alive || sum(normal * weight) > 0;
+  }
+  for (int held = block; held < block + blocks_at_once<V>; ++held) {
+    view.alive[held] = alive;
+    if (held >= t.panels[0] + t.panels[1]) continue;
+    const int family = held < t.panels[0] ? 0 : 1;
+    const Real start = t.start[held * 8], end = start + t.span[held * 8];
+    const Real from = std::max(start, view.from[family]), seen = std::min(end, view.to[family]) - from;
+    view.panel_start[held] = from + seen * t.panel_from[held];
+    view.panel_inverse[held] = seen > 0 ? 1 / (seen * (t.panel_to[held] - t.panel_from[held])) : Real(0);
+  }
+}
+
+/// What a light direction has in common for all tangents of a family.
+template <class Real>
+struct FamilyTerms {
+  // Offsets at which the minima in M and P change their argument: m_i = m_r and p_i = p_r. Below them m_r < m_i and
+  // p_r < p_i where `side` is 1, above where it is -1.
+  Real masking_kink[16], projected_kink[16], side[16];
+  Real scale[16];  ///< 1 / hypot(d, z)
+  Real blend[16];  ///< u(psi_d): psi_i and psi_r turn together with the offset, so it belongs to the family
+};
+
+template <class V, class Real>
+void family_terms(const Threads<Real>& t, const ThreadView<Real>& view, Real x, Real y, Real z,
+                  FamilyTerms<Real>& terms) {
+  using Vec = Vector<V>;
+  const V z_i = V(z), z_r = V(view.wo[2]), zero = V(Real(0)), quarter = V(Real(0.25));
+  for (int k = 0; k < 2; k += Vec::width) {
+    const V d_i = Vec::pair(x, y, k), d_r = Vec::pair(view.wo[0], view.wo[1], k);
+    const V b_i = abs(Vec::pair(y, x, k)), b_r = abs(Vec::pair(view.wo[1], view.wo[0], k));
+    const V r_d = Vec::pair(view.across_d[0], view.across_d[1], k);
+    const V r_n = Vec::pair(view.across_n[0], view.across_n[1], k);
+    const V scale = V(Real(1)) / sqrt(max(fma(d_i, d_i, z_i * z_i), V(Real(smallest_projection2))));
+    const V e_d = d_i * scale, e_n = z_i * scale;
+    const V plus_d = e_d + r_d, plus_n = e_n + r_n, minus_d = e_d - r_d, minus_n = e_n - r_n;
+    const V h2 = quarter * fma(plus_d, plus_d, plus_n * plus_n);
+    const V q = quarter * fma(minus_d, minus_d, minus_n * minus_n);
+    Vec::store(&terms.scale[k], scale);
+    Vec::store(&terms.blend[k], exp_negative(V(-t.masking_exponent) * half_angle_squared(q, h2, sqrt(h2))));
+    // cos phi_i = cos phi_r where n_i |b_r| = n_r |b_i|, and both are linear in sine and cosine of the offset.
+    const V side = select_less(d_r * z_i, d_i * z_r, V(Real(1)), V(Real(-1)));
+    Vec::store(&terms.side[k], side);
+    Vec::store(&terms.masking_kink[k], signed_angle(side * (z_i * b_r - z_r * b_i), side * (d_i * b_r - d_r * b_i)));
+    // p is the cosine of psi plus the offset: the middle between the two.
+    Vec::store(&terms.projected_kink[k], signed_angle(zero - plus_d, plus_n));
+  }
+}
+
+/// Where the minima in M and P of the blocks that are held change their argument, as places in the block's panel; 0
+/// where that is outside of the panel.
+template <class Real>
+struct Kinks {
+  Real masking[2] = {0, 0}, projected[2] = {0, 0}, side[2] = {0, 0}, between[2] = {0, 0};
+  bool in_masking = false, in_projected = false;
+};
+
+template <class Real>
+Kinks<Real> kinks_of(const Threads<Real>& t, const ThreadView<Real>& view, const FamilyTerms<Real>& terms, int block,
+                     int held) {
+  Kinks<Real> kinks;
+  const auto inside = [](Real place) { return place > 0 && place < 1 ? place : Real(0); };
+  for (int n = 0; n < held && block + n < t.panels[0] + t.panels[1]; ++n) {
+    const int family = block + n < t.panels[0] ? 0 : 1;
+    const Real start = view.panel_start[block + n], inverse = view.panel_inverse[block + n];
+    kinks.masking[n] = inside((terms.masking_kink[family] - start) * inverse);
+    kinks.projected[n] = inside((terms.projected_kink[family] - start) * inverse);
+    kinks.side[n] = terms.side[family];
+    kinks.between[n] = kinks.masking[n] > kinks.projected[n] ? kinks.side[n] : -kinks.side[n];
+    kinks.in_masking = kinks.in_masking || kinks.masking[n] > 0;
+    kinks.in_projected = kinks.in_projected || kinks.projected[n] > 0;
+  }
+  return kinks;
+}
+
+/// sign(place - x) as the nodes of a panel have to show it: sign_change() at `place`.
+template <class V, class Real>
+V sign_at_nodes(const Threads<Real>& t, int lane, V place) {
+  using Vec = Vector<V>;
+  const V y = V(Real(2)) * place - V(Real(1));
+  V s = Vec::every_block(&t.sign_change[panel_nodes][0], lane);
+  for (int j = panel_nodes - 1; j >= 0; --j) s = fma(s, y, Vec::every_block(&t.sign_change[j][0], lane));
+  return s;
+}
+
+/// Minimum of a and b at the nodes: (a + b - |a - b|) / 2. Where the panel holds the place at which a - b changes its
+/// sign, Gauss-Legendre nodes miss |a - b|, but not (a - b) times the sign that sign_at_nodes gives; elsewhere the
+/// plain minimum stands.
+template <class V>
+V least(V a, V b, V place, V sign) {
+  using Real = typename Vector<V>::Real;
+  return select_less(V(Real(0)), place, V(Real(0.5)) * (a + b - (a - b) * sign), min(a, b));
+}
+
+template <class V, class Real>
+void prepare_view_in(const Threads<Real>& threads, Real x, Real y, Real z, ThreadView<Real>& view) {
+  const Threads<Real>& t = z < Real(grazing_z) && !threads.grazing.empty() ? threads.grazing.front() : threads;
+  view.threads = &t;
+  view.wo[0] = x, view.wo[1] = y, view.wo[2] = z;
+  for (int family = 0; family < 2; ++family) {
+    const Real d = view.wo[family];
+    view.scale[family] = 1 / std::sqrt(std::max(d * d + z * z, Real(smallest_projection2)));
+    view.across_d[family] = d * view.scale[family];
+    view.across_n[family] = z * view.scale[family];
+  }
+  facing<V>({x, y}, z, view.from, view.to);
+  for (int block = 0; block * 8 < t.count; block += blocks_at_once<V>) fill_blocks<V>(t, block, view);
+}
+
+template <class V, class Real>
+ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>& view_of_wo, Real x, Real y,
+                            Real z) {
+  using Vec = Vector<V>;
+  constexpr int at_once = blocks_at_once<V>;
+  ThreadSums<Real> out;
+  if (!(z > 0) || !(view_of_wo.wo[2] > 0)) return out;
+
+  const bool fine = !threads.grazing.empty() && (z < Real(grazing_z) || view_of_wo.wo[2] < Real(grazing_z));
+  const Threads<Real>& t = fine ? threads.grazing.front() : threads;
+  const int panels = t.panels[0] + t.panels[1];
+
+  // Where wi sees less of a sloping segment than wo does, the nodes gather in what both see.
+  ThreadView<Real> gathered;
+  const Real along[2] = {x, y};
+  const bool other = view_of_wo.threads != &t;
+  bool clipped = other;
+  for (int family = 0; family < 2; ++family) clipped = clipped || std::abs(along[family]) > t.clip_free[family] * z;
+  if (clipped) {
+    std::copy(view_of_wo.wo, view_of_wo.wo + 3, gathered.wo);
+    facing<V>(along, z, gathered.from, gathered.to);
+    for (int family = 0; family < 2; ++family) {
+      gathered.from[family] = std::max(gathered.from[family], view_of_wo.from[family]);
+      gathered.to[family] = std::min(gathered.to[family], view_of_wo.to[family]);
+      gathered.scale[family] = view_of_wo.scale[family];
+    }
+  }
+  const auto regathers = [&](int block) {
+    if (!clipped || other || block >= panels) return other;
+    const int family = block < t.panels[0] ? 0 : 1;
+    const Real start = t.start[block * 8], end = start + t.span[block * 8];
+    return gathered.from[family] > std::max(start, view_of_wo.from[family]) ||
+           gathered.to[family] < std::min(end, view_of_wo.to[family]);
+  };
+
+  FamilyTerms<Real> terms;
+  family_terms<V>(t, view_of_wo, x, y, z, terms);
+  const V wx = V(x), wy = V(y), wz = V(z), zero = V(Real(0)), half = V(Real(0.5)), quarter = V(Real(0.25));
+  const V one = V(Real(1)), two = V(Real(2)), fall = V(-t.masking_exponent);
+  // Odd blocks have sums of their own in Lanes, so that the bits are those of WideLanes.
+  constexpr int sums = at_once == 2 ? 1 : 2;
+  V surface_warp[sums], surface_weft[sums], volume_warp[sums], volume_weft[sums], reweight[sums];
+  for (int n = 0; n < sums; ++n)
+    surface_warp[n] = surface_weft[n] = volume_warp[n] = volume_weft[n] = reweight[n] = zero;
+  for (int block = 0; block * 8 < t.count; block += at_once) {
+    const bool regather = regathers(block) || (at_once == 2 && regathers(block + 1));
+    if (!regather && !view_of_wo.alive[block]) continue;
+    if (regather) {
+      fill_blocks<V>(t, block, gathered);
+      if (!gathered.alive[block]) continue;
+    }
+    const ThreadView<Real>& view = regather ? gathered : view_of_wo;
+    const Kinks<Real> kinks = kinks_of(t, view, terms, block, at_once);
+    const V masking_kink = Vec::by_block(kinks.masking), projected_kink = Vec::by_block(kinks.projected);
+    const V side = Vec::by_block(kinks.side);
+    const int n = sums == 1 ? 0 : block & 1;
+    for (int k = block * 8; k < (block + at_once) * 8; k += Vec::width) {
+      const V is_warp = Vec::load(&t.along_x[k]);
+      const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
+      const V c = Vec::load(&view.cos_offset[k]), s = Vec::load(&view.sin_offset[k]);
+
+      // Inclination and azimuth of wi on this tangent.
+      const V sin_i = fma(d, c, wz * s);
+      const V normal = max(fnma(d, s, wz * c), zero);
+      const V cos_i = sqrt(max(fma(normal, normal, b * b), V(Real(smallest_cos2))));
+      const V inverse = one / cos_i;
+      const V m_i = normal * inverse, b_i = b * inverse;
+      const V m_r = Vec::load(&view.normal_r[k]), b_r = Vec::load(&view.binormal_r[k]);
+      const V plus_n = m_i + m_r, plus_b = b_i + b_r, minus_n = m_i - m_r, minus_b = b_i - b_r;
+      const V h2 = quarter * fma(plus_n, plus_n, plus_b * plus_b);     // cos^2(phi_d / 2)
+      const V q = quarter * fma(minus_n, minus_n, minus_b * minus_b);  // sin^2(phi_d / 2)
+      const V h = sqrt(h2);
+
+      // M and P, each a blend by u between the independent and the fully correlated case.
+      const V u = exp_negative(fall * half_angle_squared(q, h2, h));
+      const V mm = m_i * m_r;
+      V m_least = min(m_i, m_r);
+      V sign_m, sign_p;
+      if (kinks.in_masking) {
+        sign_m = side * sign_at_nodes<V>(t, k % 8, masking_kink);
+        m_least = least(m_i, m_r, masking_kink, sign_m);
+      }
+      const V masking = max(fma(u, m_least - mm, mm), zero);
+      const V p_i = normal * select_less(half, is_warp, V(terms.scale[0]), V(terms.scale[1]));
+      const V p_r = Vec::load(&view.projected_r[k]);
+      const V pp = p_i * p_r;
+      V p_least = min(p_i, p_r);
+      if (kinks.in_projected) {
+        sign_p = side * sign_at_nodes<V>(t, k % 8, projected_kink);
+        p_least = least(p_i, p_r, projected_kink, sign_p);
+      }
+      const V u_p = select_less(half, is_warp, V(terms.blend[0]), V(terms.blend[1]));
+      const V projected = max(fma(u_p, p_least - pp, pp), zero);
+      V visible = masking * projected;
+      if (kinks.in_masking && kinks.in_projected) {
+        // The product of both signs is 1 but between the places: not the product of what the nodes show of each.
+        const V between = Vec::by_block(kinks.between) * (sign_m - sign_p);
+        const V product = one - between - sign_m * sign_p;
+        const V corrected = max(fma(quarter * u * u_p * (m_i - m_r), (p_i - p_r) * product, visible), zero);
+        visible = select_less(zero, min(masking_kink, projected_kink), corrected, visible);
+      }
+
+      // sin a + sin b over cos a + cos b is tan((a + b)/2), and the sum of their squares 4 cos^2((a - b)/2): both
+      // half angles without a cancellation, even where wi and wo graze opposite ends of the thread.
+      const V cos_sum = cos_i + Vec::load(&view.cos_r[k]), sin_sum = sin_i + Vec::load(&view.sin_r[k]);
+      const V four_cos2_d = fma(cos_sum, cos_sum, sin_sum * sin_sum);
+      const V theta_h2 = atan_squared(sin_sum, cos_sum);
+      const V cos_d = half * sqrt(four_cos2_d);
+
+      // Fresnel at cos(theta_d) cos(phi_d / 2). Transmittance from its own product: 1 - F_r would lose its digits.
+      const V cosine = cos_d * h;
+      const V eta2 = Vec::load(&t.eta2[k]), eta2_minus_1 = Vec::load(&t.eta2_minus_1[k]);
+      const V g = sqrt(fma(cosine, cosine, eta2_minus_1));
+      const V sum_s = cosine + g, sum_p = fma(eta2, cosine, g);
+      const V inverse_both = one / max(sum_s * sum_p, V(Real(1e-30f)));
+      const V inverse_s = sum_p * inverse_both, inverse_p = sum_s * inverse_both;
+      const V r_s = eta2_minus_1 * inverse_s * inverse_s, r_p = (fma(eta2, cosine, zero - g)) * inverse_p;
+      const V reflected = half * fma(r_s, r_s, r_p * r_p);
+      const V transmitted = two * cosine * g * fma(eta2, inverse_p * inverse_p, inverse_s * inverse_s);
+
+      const V g_s = Vec::load(&t.surface_norm[k]) * exp_negative(zero - theta_h2 * Vec::load(&t.surface_exponent[k]));
+      const V g_v = fma(Vec::load(&t.volume_norm[k]),
+                        exp_negative(zero - theta_h2 * Vec::load(&t.volume_exponent[k])), Vec::load(&t.isotropic[k]));
+
+      // cos theta_i / cos^2 theta_d, then the thread's two terms; V keeps 1 / (cos theta_i + cos theta_r) beside
+      // F_t^2.
+      const V inverse_sum = one / (four_cos2_d * cos_sum);
+      const V common = visible * cos_i * V(Real(4)) * (inverse_sum * cos_sum);
+      const V surface = common * reflected * h * g_s;
+      const V volume = common * (transmitted * transmitted) * g_v * (inverse_sum * four_cos2_d);
+      const V w_warp = Vec::load(&view.weight_warp[k]), w_weft = Vec::load(&view.weight_weft[k]);
+      surface_warp[n] = fma(surface, w_warp, surface_warp[n]);
+      surface_weft[n] = fma(surface, w_weft, surface_weft[n]);
+      volume_warp[n] = fma(volume, w_warp, volume_warp[n]);
+      volume_weft[n] = fma(volume, w_weft, volume_weft[n]);
+      reweight[n] = fma(projected, w_warp + w_weft, reweight[n]);
+    }
+  }
+  const auto total = [](const V(&parts)[sums]) {
+    if constexpr (sums == 1)
+      return sum(parts[0]);
+    else
+      return sum(parts[0] + parts[1]);
+  };
+  const Real q = total(reweight);
+  // Every P is 0: F is 0 (cloth-model.md section 3). So too for a denormal, whose inverse is infinite.
+  if (!(q >= std::numeric_limits<Real>::min())) return out;
+  const Real inverse_q = 1 / (q + t.gap * view_of_wo.wo[2]);
+  out.surface = {total(surface_warp) * inverse_q, total(surface_weft) * inverse_q};
+  out.volume = {total(volume_warp) * inverse_q, total(volume_weft) * inverse_q};
+  return out;
+}
+
+}  // namespace
+
+}  // namespace sateen
