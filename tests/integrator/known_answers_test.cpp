@@ -127,6 +127,32 @@ TEST(Bounces, AddNothingOnAConvexMesh) {
   EXPECT_GT(hits, 500);
 }
 
+TEST(Batches, GiveASampleTheBitsThatItHasAlone) {
+  Scene scene = floor_scene(fabric_of(shipped_look("polyester_satin_charmeuse")), Sun{64, 32, 3, 0, 50}.map(),
+                            direction(40, 25));
+  scene.camera = distant_camera(Vec3(0), Vec3(0.2f, 1, 0.7f), 4, 7, 5);  // some pixels beside the floor
+  const auto scratch = std::make_unique<PathScratch>();
+  std::vector<SampleId> ids;
+  for (int y = 0; y < 5; ++y)
+    for (int x = 0; x < 7; ++x)
+      for (int k = 0; k < 3; ++k) ids.push_back({x, y, k, std::uint32_t(x + y)});
+  for (const NamedSettings& settings : all_settings(1))
+    for (const size_t size : {size_t(5), size_t(batch_size)})
+      for (size_t first = 0; first < ids.size(); first += size) {
+        const size_t count = std::min(size, ids.size() - first);
+        CameraSample together[batch_size];
+        trace_samples(scene, settings.light, 9, {&ids[first], count}, *scratch, together);
+        for (size_t k = 0; k < count; ++k) {
+          const CameraSample alone = trace_sample(scene, settings.light, 9, ids[first + k], *scratch);
+          ASSERT_EQ(together[k].total(), alone.total()) << settings.name;
+          ASSERT_EQ(together[k].hit, alone.hit);
+          ASSERT_EQ(together[k].alpha, alone.alpha);
+          ASSERT_EQ(together[k].position, alone.position);
+          ASSERT_EQ(together[k].uv, alone.uv);
+        }
+      }
+}
+
 TEST(Sun, StraightAboveGivesFTimesItsIrradiance) {
   const Vec3 view = direction(40, 25);
   const std::vector<NamedSettings> all = all_settings();

@@ -33,6 +33,24 @@ TEST(Sobol, EveryAlignedBlockOfAPowerOfTwoIsANetInBaseTwo) {
     }
 }
 
+TEST(Sobol, ABatchDrawsTheNumbersThatItsSamplesDrawAlone) {
+  std::vector<SampleId> ids;
+  for (int k = 0; k < batch_size; ++k) ids.push_back({17 * k - 40, 1 << k, k % 5, std::uint32_t(k * k * 12345)});
+  for (size_t count = 1; count <= ids.size(); ++count) {
+    const SequenceBatch batch = pixel_sequences(77, {ids.data(), count});
+    ASSERT_EQ(batch.count, int(count));
+    for (const Dimension dimension : every_dimension) {
+      const Batch1 one = draw(batch, dimension);
+      const Batch2 two = draw2(batch, dimension);
+      for (size_t k = 0; k < count; ++k) {
+        const Sequence sequence = pixel_sequence(77, ids[k].x, ids[k].y, ids[k].replicate);
+        EXPECT_EQ(one[k], draw(sequence, dimension, ids[k].index));
+        EXPECT_EQ(two[k], draw2(sequence, dimension, ids[k].index));
+      }
+    }
+  }
+}
+
 TEST(Sobol, EveryAlignedBlockIsStratifiedInOneDimension) {
   const Sequence sequence = pixel_sequence(9, 12, 34, 0);
   for (const Dimension dimension : every_dimension)

@@ -53,6 +53,41 @@ Mesh round_mesh(int rows, double radius, const Vec3d& centre) {
   return mesh;
 }
 
+TEST(RayTracer, AHitInAPacketDoesNotDependOnItsCompanyAndAgreesWithTheSingleRay) {
+  const Mesh mesh = round_mesh(60, 1, Vec3d(0.3, -0.2, 0.1));
+  const RayTracer tracer(mesh);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> anywhere(-1.5f, 1.5f);
+  for (int packet = 0; packet < 400; ++packet) {
+    // Rays of one pixel, then rays from everywhere to everywhere; one of them broken.
+    std::vector<Ray> rays(RayTracer::packet_size);
+    const Vec3 eye(anywhere(random), anywhere(random), 5), to(anywhere(random), anywhere(random), 0);
+    const float spread = packet % 2 ? 1e-3f : 1.0f;
+    for (Ray& ray : rays) {
+      ray.origin = packet % 4 == 3 ? Vec3(anywhere(random), anywhere(random), anywhere(random)) : eye;
+      ray.direction = to - eye + Vec3(anywhere(random), anywhere(random), anywhere(random)) * spread;
+    }
+    if (packet % 5 == 0) rays[3].direction.y = std::numeric_limits<float>::quiet_NaN();
+    Hit all[RayTracer::packet_size];
+    bool found[RayTracer::packet_size];
+    tracer.closest_hits(rays, all, found);
+    for (size_t k = 0; k < rays.size(); ++k) {
+      Hit alone;
+      bool found_alone = false;
+      tracer.closest_hits({&rays[k], 1}, &alone, &found_alone);
+      ASSERT_EQ(found_alone, found[k]);
+      const std::optional<Hit> single = tracer.closest_hit(rays[k]);
+      ASSERT_EQ(single.has_value(), found[k]) << "packet " << packet << " ray " << k;
+      if (!found[k]) continue;
+      EXPECT_EQ(alone.quad, all[k].quad);
+      EXPECT_EQ(alone.t, all[k].t);
+      EXPECT_EQ(alone.u, all[k].u);
+      EXPECT_EQ(alone.v, all[k].v);
+      EXPECT_NEAR(single->t, all[k].t, 1e-5f * all[k].t);
+    }
+  }
+}
+
 TEST(RayTracer, TheCornersOfAQuadHaveTheDocumentedCoordinates) {
   const Mesh mesh = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
   const RayTracer tracer(mesh);
