@@ -153,8 +153,9 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
   }
   std::array<Hit, batch_size> hits;
   std::array<bool, batch_size> found;
-  static_assert(batch_size == RayTracer::packet_size);
-  scene.rays->closest_hits({rays.data(), samples.size()}, hits.data(), found.data());
+  constexpr size_t packet = RayTracer::packet_size;
+  for (size_t k = 0; k < samples.size(); k += packet)
+    scene.rays->closest_hits({&rays[k], std::min(samples.size() - k, packet)}, &hits[k], &found[k]);
   scratch.counts.camera += std::int64_t(samples.size());
 
   // The hits move together.

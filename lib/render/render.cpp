@@ -50,8 +50,8 @@ Window window_of(const RenderSettings& settings, const Film& film) {
 }
 
 /// Adds `count` samples to the pixels from x0 to x1 of row y, in batches that run on from pixel to pixel.
-void trace_row(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film, int y, int x0,
-               int x1, int count, PathScratch& scratch) {
+void trace_row(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film, int y,
+               int x0, int x1, int count, PathScratch& scratch) {
   std::array<SampleId, batch_size> ids;
   std::array<CameraSample, batch_size> samples;
   size_t waiting = 0;
@@ -106,7 +106,8 @@ bool render_pass(const Scene& scene, const RenderSettings& settings, const Albed
   return whole;
 }
 
-/// Samples still needed for the asked error, from the error now: E falls about as n^-0.75 with low-discrepancy samples.
+/// Samples still needed for the asked error, from the error now: E falls about as n^-0.75 with low-discrepancy
+/// samples.
 double samples_for_error(const RenderState& state, double target) {
   if (!state.error.known || state.error.high <= 0) return -1;
   return state.samples * std::pow(state.error.high / target, 1 / 0.75);
@@ -135,7 +136,8 @@ void predict(RenderState& state, const StopRules& stop, double seconds_per_sampl
 RenderResult render(const Scene& scene, const RenderSettings& settings, Film& film,
                     const std::function<void(const RenderState&)>& observe, const std::atomic<bool>* interrupt) {
   const double start = now(), cpu_start = cpu_seconds();
-  const AlbedoMaps albedo = film.layers.empty() || !settings.albedo_layer ? AlbedoMaps() : map_albedos(scene, settings.threads);
+  const AlbedoMaps albedo =
+      film.layers.empty() || !settings.albedo_layer ? AlbedoMaps() : map_albedos(scene, settings.threads);
   const double tracing_start = now();
   RenderResult result;
   RenderState state;

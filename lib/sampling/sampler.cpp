@@ -65,6 +65,11 @@ struct Digits {
   return {reverse_bits(permute_upwards(shuffled, s.first)),
           reverse_bits(permute_upwards(pascal(shuffled), s.second))};
 }
+// Vector code takes eight at a time.
+std::size_t padded(int count) {
+  return (std::size_t(count) + 7) / 8 * 8;
+}
+
 double unit(std::uint32_t fraction) {
   return double(fraction) * 0x1p-32;
 }
@@ -99,7 +104,7 @@ SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samp
     batch.index[k] = samples[k].index;
   }
   const std::uint32_t picture = combine(0x53617465u, seed);
-  for (std::size_t k = 0; k < batch_size; ++k)
+  for (std::size_t k = 0; k < padded(batch.count); ++k)
     batch.seed[k] = combine(combine(combine(combine(picture, x[k]), y[k]), replicate[k]), 0);
   return batch;
 }
@@ -107,21 +112,22 @@ SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samp
 // The digits apart from their conversion: the first loop is 32 bits wide throughout.
 Batch1 draw(const SequenceBatch& batch, Dimension dimension) {
   std::array<std::uint32_t, batch_size> first;
-  for (std::size_t k = 0; k < batch_size; ++k) first[k] = digits({batch.seed[k]}, dimension, batch.index[k]).first;
+  for (std::size_t k = 0; k < padded(batch.count); ++k)
+    first[k] = digits({batch.seed[k]}, dimension, batch.index[k]).first;
   Batch1 u;
-  for (std::size_t k = 0; k < batch_size; ++k) u[k] = unit(first[k]);
+  for (std::size_t k = 0; k < padded(batch.count); ++k) u[k] = unit(first[k]);
   return u;
 }
 
 Batch2 draw2(const SequenceBatch& batch, Dimension dimension) {
   std::array<std::uint32_t, batch_size> first, second;
-  for (std::size_t k = 0; k < batch_size; ++k) {
+  for (std::size_t k = 0; k < padded(batch.count); ++k) {
     const Digits d = digits({batch.seed[k]}, dimension, batch.index[k]);
     first[k] = d.first;
     second[k] = d.second;
   }
   Batch2 u;
-  for (std::size_t k = 0; k < batch_size; ++k) u[k] = {unit(first[k]), unit(second[k])};
+  for (std::size_t k = 0; k < padded(batch.count); ++k) u[k] = {unit(first[k]), unit(second[k])};
   return u;
 }
 

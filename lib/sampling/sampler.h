@@ -37,8 +37,9 @@ Sequence pixel_sequence(std::uint32_t seed, int x, int y, int replicate, int bou
 double draw(Sequence sequence, Dimension dimension, std::uint32_t index);
 std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_t index);
 
-/// Samples that are computed side by side: as many as one packet of rays holds.
-inline constexpr int batch_size = 16;
+/// Samples that are computed side by side, measured: four packets of camera rays, and shadow rays enough for a
+/// stream.
+inline constexpr int batch_size = 64;
 
 /// One sample of a pixel: the `index`-th of a replicate.
 struct SampleId {

@@ -210,6 +210,22 @@ bool RayTracer::occluded(const Ray& ray) const {
   return query.tfar < 0;
 }
 
+void RayTracer::occluded_each(std::span<const Ray> rays, bool* blocked) const {
+  RTCRay stream[stream_size];
+  for (size_t k = 0; k < rays.size(); ++k) {
+    fill(stream[k], rays[k]);
+    // A ray that ends before it starts is passed over.
+    if (!is_traceable(rays[k])) {
+      fill(stream[k], Ray{{0, 0, 0}, {0, 0, 1}, 0, 0});
+      stream[k].tnear = 1;
+    }
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1M(state_->scene, &context, stream, unsigned(rays.size()), sizeof(RTCRay));
+  for (size_t k = 0; k < rays.size(); ++k) blocked[k] = stream[k].tfar < 0;
+}
+
 std::int64_t RayTracer::memory_bytes() const {
   return state_->bytes + std::int64_t(state_->positions.capacity() * sizeof(Vec3));
 }

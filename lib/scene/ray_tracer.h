@@ -41,7 +41,11 @@ class RayTracer {
   /// though its last bits may differ from closest_hit's.
   static constexpr int packet_size = 16;
   void closest_hits(std::span<const Ray> rays, Hit* hits, bool* found) const;
+
   bool occluded(const Ray& ray) const;
+  /// The same for many rays that need have nothing in common, up to `stream_size`: a sixth faster than one by one.
+  static constexpr int stream_size = 128;
+  void occluded_each(std::span<const Ray> rays, bool* occluded) const;
   std::int64_t memory_bytes() const;       ///< what Embree holds now
   std::int64_t peak_memory_bytes() const;  ///< the most that it held while building
 

@@ -61,20 +61,29 @@ void environment() {
       const auto u = draw2(sequence, Dimension::environment, i);
       const EnvironmentSample s = sample_environment(map, EnvironmentDensity::compensated, u[0], u[1]);
       directions.push_back(s.direction);
-      worst = std::max(worst, std::abs(double(environment_pdf(map, EnvironmentDensity::compensated, s.direction)) / s.pdf - 1));
+      worst = std::max(
+          worst, std::abs(double(environment_pdf(map, EnvironmentDensity::compensated, s.direction)) / s.pdf - 1));
     }
     require(worst < 1e-6, "density of a sample against its look-up");
-    const double sample_ns = nanoseconds(15, 3, [&] {
-      for (std::uint32_t i = 0; i < 4096; ++i) {
-        const double a = i * 0.618033988749895;
-        sink = sample_environment(map, EnvironmentDensity::compensated, a - std::floor(a), (i + 0.5) / 4096).pdf;
-      }
-    }) / 4096;
-    const double look_ns = nanoseconds(15, 3, [&] {
-      float sum = 0;
-      for (const Vec3& d : directions) sum += environment_texel(map, d).pdf_compensated;
-      sink = sum;
-    }) / 4096;
+    const double sample_ns =
+        nanoseconds(
+            15, 3,
+            [&] {
+              for (std::uint32_t i = 0; i < 4096; ++i) {
+                const double a = i * 0.618033988749895;
+                sink =
+                    sample_environment(map, EnvironmentDensity::compensated, a - std::floor(a), (i + 0.5) / 4096).pdf;
+              }
+            }) /
+        4096;
+    const double look_ns = nanoseconds(15, 3,
+                                       [&] {
+                                         float sum = 0;
+                                         for (const Vec3& d : directions)
+                                           sum += environment_texel(map, d).pdf_compensated;
+                                         sink = sum;
+                                       }) /
+                           4096;
     fmt::print("{:<22}{:>14.3f}{:>12.1f}{:>12.1f}{:>12.1e}\n", name, read, sample_ns, look_ns, worst);
   }
 }
@@ -83,9 +92,14 @@ void rays() {
   fmt::print("rays per CPU-second of a render over bare Embree on the very same rays, one thread, one by one\n");
   fmt::print("{:<28}{:>10}{:>18}{:>12}{:>12}{:>12}{:>16}\n", "look", "triangles", "strategy", "Mray/s", "bare Mray/s",
              "efficiency", "min to max");
-  struct Case { const char* look; int level; };
-  for (const auto& [look, level] : {Case{"polyester_satin_charmeuse", 2}, {"polyester_satin_charmeuse", 3},
-                                    {"silk_crepe_de_chine", 3}, {default_look, 3}}) {
+  struct Case {
+    const char* look;
+    int level;
+  };
+  for (const auto& [look, level] : {Case{"polyester_satin_charmeuse", 2},
+                                    {"polyester_satin_charmeuse", 3},
+                                    {"silk_crepe_de_chine", 3},
+                                    {default_look, 3}}) {
     const Scene scene = scene_of(look, "studio_softboxes", level, 960);
     for (const Strategy strategy : {Strategy::mis, Strategy::mis_compensated, Strategy::resampled}) {
       LightSettings light;
@@ -132,12 +146,21 @@ void rays() {
 }
 
 void strategies() {
-  fmt::print("E^2 x CPU-seconds at 64 samples (smaller is better), 240x135, drape at level 2; * the least of a row\n");
-  struct Entry { Strategy strategy; int candidates; const char* label; };
-  const Entry entries[] = {{Strategy::table, 1, "table"}, {Strategy::environment, 1, "environment"},
-                           {Strategy::mis_talk, 1, "mis-talk"}, {Strategy::mis, 1, "mis"},
-                           {Strategy::mis_compensated, 1, "mis-comp"}, {Strategy::resampled, 1, "res 1"},
-                           {Strategy::resampled, 2, "res 2"}, {Strategy::resampled, 4, "res 4"},
+  fmt::print(
+      "E^2 x CPU-seconds at 64 samples (smaller is better), 240x135, drape at level 2; * the least of a row\n");
+  struct Entry {
+    Strategy strategy;
+    int candidates;
+    const char* label;
+  };
+  const Entry entries[] = {{Strategy::table, 1, "table"},
+                           {Strategy::environment, 1, "environment"},
+                           {Strategy::mis_talk, 1, "mis-talk"},
+                           {Strategy::mis, 1, "mis"},
+                           {Strategy::mis_compensated, 1, "mis-comp"},
+                           {Strategy::resampled, 1, "res 1"},
+                           {Strategy::resampled, 2, "res 2"},
+                           {Strategy::resampled, 4, "res 4"},
                            {Strategy::resampled, 8, "res 8"}};
   fmt::print("{:<28}{:<20}", "look", "map");
   for (const Entry& e : entries) fmt::print("{:>12}", e.label);
@@ -145,7 +168,8 @@ void strategies() {
   std::vector<std::string> maps{"studio_softboxes", "overcast", "low_sun", "three_light_rig"};
   const std::filesystem::path shared = data_folder().parent_path() / "shared" / "hdri";
   for (const char* name : {"apartment", "studio", "interior", "city", "sky"})
-    if (std::filesystem::exists(shared / (std::string(name) + ".exr"))) maps.push_back((shared / (std::string(name) + ".exr")).string());
+    if (std::filesystem::exists(shared / (std::string(name) + ".exr")))
+      maps.push_back((shared / (std::string(name) + ".exr")).string());
   for (const char* look : {"polyester_satin_charmeuse", "silk_crepe_de_chine"})
     for (const std::string& map : maps) {
       const Scene scene = scene_of(look, map, 2, 240);
@@ -184,17 +208,20 @@ void memory() {
       for (int i = 0; i < n; ++i) {
         const int a = j * (n + 1) + i;
         cage.face_sizes.push_back(4);
-        for (const int k : {a, a + n + 1, a + n + 2, a + 1}) cage.position_indices.push_back(k), cage.uv_indices.push_back(k);
+        for (const int k : {a, a + n + 1, a + n + 2, a + 1})
+          cage.position_indices.push_back(k), cage.uv_indices.push_back(k);
       }
     const double before = resident(), start = cpu_seconds();
     auto mesh = std::make_unique<const Mesh>(subdivide(cage, level));
     auto tracer = std::make_unique<RayTracer>(*mesh);
     const double seconds = cpu_seconds() - start, triangles = double(mesh->triangles());
-    const double own = double(mesh->quads.capacity() * 16 + mesh->positions.capacity() * 12 + mesh->normals.capacity() * 12 +
-                              mesh->dpdu.capacity() * 12 + mesh->dpdv.capacity() * 12 + mesh->uvs.capacity() * 8);
+    const double own =
+        double(mesh->quads.capacity() * 16 + mesh->positions.capacity() * 12 + mesh->normals.capacity() * 12 +
+               mesh->dpdu.capacity() * 12 + mesh->dpdv.capacity() * 12 + mesh->uvs.capacity() * 8);
     require(triangles == 2.0 * n * n * std::pow(4.0, level), "number of triangles");
-    fmt::print("{:<26}{:>12.0f}{:>12.2f}{:>16.1f}{:>16.1f}{:>16.1f}\n", fmt::format("177x177 at level {}", level), triangles,
-               seconds, own / triangles, double(tracer->memory_bytes()) / triangles, (resident() - before) / triangles);
+    fmt::print("{:<26}{:>12.0f}{:>12.2f}{:>16.1f}{:>16.1f}{:>16.1f}\n", fmt::format("177x177 at level {}", level),
+               triangles, seconds, own / triangles, double(tracer->memory_bytes()) / triangles,
+               (resident() - before) / triangles);
   }
 }
 

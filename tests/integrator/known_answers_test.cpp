@@ -137,7 +137,7 @@ TEST(Batches, GiveASampleTheBitsThatItHasAlone) {
     for (int x = 0; x < 7; ++x)
       for (int k = 0; k < 3; ++k) ids.push_back({x, y, k, std::uint32_t(x + y)});
   for (const NamedSettings& settings : all_settings(1))
-    for (const size_t size : {size_t(5), size_t(batch_size)})
+    for (const size_t size : {size_t(5), size_t(16), size_t(batch_size)})
       for (size_t first = 0; first < ids.size(); first += size) {
         const size_t count = std::min(size, ids.size() - first);
         CameraSample together[batch_size];

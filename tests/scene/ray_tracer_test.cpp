@@ -88,6 +88,38 @@ TEST(RayTracer, AHitInAPacketDoesNotDependOnItsCompanyAndAgreesWithTheSingleRay)
   }
 }
 
+TEST(RayTracer, WhatBlocksAShadowRayDoesNotDependOnTheOtherRaysOfItsStream) {
+  const Mesh mesh = round_mesh(300, 1, Vec3d(0.3, -0.2, 0.1));
+  const RayTracer tracer(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> anywhere(-1, 1);
+  int blocked = 0, rays_traced = 0;
+  for (int stream = 0; stream < 500; ++stream) {
+    std::vector<Ray> rays(size_t(1 + stream % RayTracer::stream_size));
+    for (Ray& ray : rays) {
+      // From points of the surface to everywhere, most of them grazing.
+      const std::uint32_t vertex = std::uint32_t(random() % mesh.positions.size());
+      const Vec3& n = mesh.normals[vertex];
+      ray.direction = Vec3(anywhere(random), anywhere(random), anywhere(random));
+      ray.direction -= n * dot(n, ray.direction) * (stream % 3 ? 0.999f : 0.5f);
+      ray.origin = mesh.positions[vertex] + n * 1e-6f;
+    }
+    if (stream % 7 == 0) rays[0].origin.x = std::numeric_limits<float>::infinity();
+    bool together[RayTracer::stream_size];
+    tracer.occluded_each(rays, together);
+    for (size_t k = 0; k < rays.size(); ++k) {
+      bool alone;
+      tracer.occluded_each({&rays[k], 1}, &alone);
+      ASSERT_EQ(alone, together[k]) << "stream " << stream << " ray " << k;
+      ASSERT_EQ(tracer.occluded(rays[k]), together[k]) << "stream " << stream << " ray " << k;
+      blocked += alone;
+    }
+    rays_traced += int(rays.size());
+  }
+  EXPECT_GT(blocked, rays_traced / 10);
+  EXPECT_LT(blocked, rays_traced * 9 / 10);
+}
+
 TEST(RayTracer, TheCornersOfAQuadHaveTheDocumentedCoordinates) {
   const Mesh mesh = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
   const RayTracer tracer(mesh);
