@@ -114,7 +114,8 @@ void add_quality(Command& c, PictureFlags& f) {
   c.integer("--seed", "N", f.seed, 0, 0x7fffffff, "another seed is another noise (default: 1)");
   c.integer("-t,--threads", "N", f.render.threads, 0, 4096, "0: all that this process may use (default)");
   c.text("--strategy", "NAME", f.strategy,
-         fmt::format("how light is sampled (default: {}): {}", f.strategy, fmt::join(strategy_names(), ", ")));
+         fmt::format("how light is sampled (default: auto, by a pilot on the scene): {}",
+                     fmt::join(strategy_names(), ", ")));
   c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
             fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));
   c.integer("--bounces", "N", f.render.light.bounces, 0, 64, "light that meets cloth again (default: 0)");
@@ -199,7 +200,7 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int default_s
   StopRules& stop = f.render.stop;
   if (stop.spp == 0 && stop.error == 0 && stop.seconds == 0) stop.spp = default_spp;
   f.render.seed = std::uint32_t(f.seed);
-  f.render.light.strategy = strategy_from_name(f.strategy);
+  if (f.strategy != "auto") f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
   settle_effects(f.effects, command.given("--bounces"), f.render.light);
   f.layer_list = read_layers(f.layers);

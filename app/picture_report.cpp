@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "console.h"
 #include "exit_code.h"
+#include "render/pilot.h"
 #include "signals.h"
 
 namespace sateen::app {
@@ -90,7 +91,9 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   w.member("exposure_ev", job.exposure_ev).member("exposure_metered", !flags.exposure_ev);
   w.member("working_space", job.working_space).member("color_config", job.color_config);
   w.member("display", job.display.display).member("view", job.display.view);
-  w.member("strategy", strategy_name(job.render.light.strategy)).member("effects", job.effects);
+  w.member("strategy", strategy_name(job.render.light.strategy));
+  if (!job.strategy_reason.empty()) w.member("strategy_reason", job.strategy_reason);
+  w.member("effects", job.effects);
   w.member("bounces", job.render.light.bounces).member("seed", job.render.seed);
   w.member("threads", thread_count(job.render.threads));
   const StopRules& stop = job.render.stop;
@@ -117,6 +120,19 @@ PictureJob make_job(const PictureFlags& flags, const SceneReport& report, const 
   PictureJob job;
   job.scene = flags.scene;
   job.render = flags.render;
+  if (flags.strategy == "auto") {
+    const StopRules& stop = flags.render.stop;
+    // Below that the pilot would cost more than it saves.
+    constexpr int least_samples = 32;
+    if (stop.spp == 0 || stop.spp >= least_samples) {
+      const StrategyChoice choice =
+          choose_strategy(scene, flags.render.light, flags.render.seed, flags.render.threads);
+      job.render.light.strategy = choice.strategy;
+      job.strategy_reason = choice.reason;
+    } else {
+      job.strategy_reason = fmt::format("{}: too few samples for a pilot", strategy_name(job.render.light.strategy));
+    }
+  }
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;
@@ -137,6 +153,7 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
                          rules_text(job.render.stop)));
   print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
                            job.display.display, job.display.view));
+  if (!job.strategy_reason.empty()) print_note(fmt::format("light sampled by {}", job.strategy_reason));
   print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
                            job.effects, job.render.seed, thread_count(job.render.threads)));
   print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",

@@ -24,8 +24,7 @@ std::string strategy_name(Strategy strategy);
 FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
 
 struct LightSettings {
-  /// Least error at equal time in 13 of 18 pairs of look and map (./dev bench strategies); resampling wins, by up
-  /// to 1.6 times, in studios whose lights are small, and loses by 1.5 to 2.5 times under skies.
+  /// Least error at equal time in most pairs of look and map; a pilot may find a better one (render/pilot.h).
   Strategy strategy = Strategy::mis_compensated;
   int candidates = 4;  ///< of each kind, for resampling, 1 to 64
   int bounces = 0;     ///< light that meets cloth again, 0 to 64

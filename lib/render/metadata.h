@@ -14,6 +14,7 @@ struct PictureJob {
   DisplaySettings display;          ///< settled
   float exposure_ev = 0;            ///< in force
   std::vector<std::string> layers;  ///< of an EXR, beside the beauty
+  std::string strategy_reason;      ///< empty where the user named the strategy
   std::string effects;              ///< in force, "shadows,gaps"
   std::string color_config;         ///< ColorManager::description()
   std::string working_space;
