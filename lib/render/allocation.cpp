@@ -114,6 +114,22 @@ std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barr
   return targets;
 }
 
+double useful_samples(const Film& film) {
+  constexpr double noisy = 1e-3;
+  std::vector<double> variances(film.pixels.size());
+  double total = 0, pixels = 0, useful = 0;
+  for (size_t i = 0; i < variances.size(); ++i) {
+    if (film.pixels[i].samples < 2) continue;
+    variances[i] = sample_variance(film.pixels[i]);
+    total += variances[i];
+    ++pixels;
+  }
+  for (size_t i = 0; i < variances.size(); ++i)
+    if (film.pixels[i].samples >= 2 && variances[i] * pixels > noisy * total)
+      useful += double(film.pixels[i].samples);
+  return pixels > 0 ? useful / pixels : 0;
+}
+
 std::uint32_t part_of_target(std::uint32_t target, int samples, int barrier) {
   if (samples >= barrier) return target;
   const std::uint64_t part =

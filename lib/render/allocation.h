@@ -24,6 +24,9 @@ int next_barrier(int samples);
 /// nor fewer than 1/16 of the mean; in eights, since samples of one pixel are cheaper together. Outside the window 0.
 std::vector<std::uint32_t> allocate(const Film& film, const Crop& window, int barrier, bool adaptive);
 
+/// Mean over the pixels with samples of those that went where there is noise: above a thousandth of its mean.
+double useful_samples(const Film& film);
+
 /// Samples of a pixel on the way to its `target` at `barrier` when the mean passes `samples`.
 std::uint32_t part_of_target(std::uint32_t target, int samples, int barrier);
 

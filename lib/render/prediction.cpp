@@ -9,12 +9,12 @@ namespace sateen {
 
 namespace {
 
-// Over looks, maps and meshes (docs/error.md) E falls about as n^-0.55, give or take 0.06.
-constexpr double usual_slope = -0.55, usual_deviation = 0.06;
+// Over looks, maps and meshes (docs/error.md) E falls about as n^-0.575, give or take 0.04.
+constexpr double usual_slope = -0.575, usual_deviation = 0.04;
 // Of log E at one barrier, beside what all barriers share: they add to the same samples.
-constexpr double point_deviation = 0.02;
-// Cost of a sample may change by this share, from caches, clocks and other programs.
-constexpr double cost_deviation = 0.03;
+constexpr double point_deviation = 0.025;
+// Cost of a sample may change by this share, from caches, clocks and where samples go.
+constexpr double cost_deviation = 0.05;
 constexpr double two_sided_90 = 1.645;
 
 /// Seconds for one more mean sample.
@@ -50,6 +50,14 @@ Promise times_for(const std::vector<ErrorPoint>& points, const Forecast& samples
   return promise;
 }
 
+// Samples once so many of them are useful, and back: on as in the last pass.
+double useful_rate(const std::vector<ErrorPoint>& points) {
+  const ErrorPoint& last = points.back();
+  const ErrorPoint before = points.size() > 1 ? points[points.size() - 2] : ErrorPoint();
+  const double rate = (last.useful - before.useful) / std::max(last.samples - before.samples, 1e-9);
+  return std::clamp(rate, 0.01, 1.0);
+}
+
 // The barrier at which E is looked at with `samples` or more.
 double barrier_for(double first, double samples) {
   int barrier = int(first);
@@ -62,8 +70,8 @@ double barrier_for(double first, double samples) {
 ErrorSlope fit_slope(const std::vector<ErrorPoint>& points) {
   double count = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const ErrorPoint& p : points) {
-    if (!(p.error > 0) || p.samples < points.back().samples / 8) continue;
-    const double x = std::log(p.samples), y = std::log(p.error);
+    if (!(p.error > 0) || !(p.useful > 0) || p.samples < points.back().samples / 8) continue;
+    const double x = std::log(p.useful), y = std::log(p.error);
     count += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const double scatter = count > 1 ? sxx - sx * sx / count : 0;
@@ -77,11 +85,11 @@ ErrorSlope fit_slope(const std::vector<ErrorPoint>& points) {
 }
 
 Promise promise_at(const std::vector<ErrorPoint>& points, double samples) {
-  if (points.empty()) return {};
+  if (points.empty() || !(points.back().useful > 0)) return {};
   const ErrorPoint& last = points.back();
   const ErrorSlope s = fit_slope(points);
   Promise promise = times_for(points, {samples, samples, samples});
-  const double way = std::log(std::max(samples / last.samples, 1.0));
+  const double way = std::log1p(std::max(samples - last.samples, 0.0) * useful_rate(points) / last.useful);
   const double error = last.error * std::exp(s.slope * way);
   const double off = two_sided_90 * std::hypot(s.deviation * way, point_deviation);
   promise.error = {error, error * std::exp(-off), error * std::exp(off)};
@@ -99,15 +107,16 @@ Promise promise_in_time(const std::vector<ErrorPoint>& points, double seconds) {
 }
 
 Promise promise_for_error(const std::vector<ErrorPoint>& points, double target) {
-  if (points.empty() || !(points.back().error > 0)) return {};
+  if (points.empty() || !(points.back().error > 0) || !(points.back().useful > 0)) return {};
   const ErrorPoint& last = points.back();
   const ErrorSlope s = fit_slope(points);
-  // In log samples, where the errors of the slope and of the last point add as squares.
+  // In log useful samples, where the errors of the slope and of the last point add as squares.
   const double way = std::max(std::log(last.high / target), 0.0) / -s.slope;
   const double off =
       two_sided_90 * std::hypot(way * s.deviation / -s.slope, point_deviation * std::sqrt(1 + way) / -s.slope);
   const auto barrier = [&](double log_samples) {
-    return barrier_for(last.samples, last.samples * std::exp(std::clamp(log_samples, 0.0, 40.0)));
+    const double more = last.useful * std::expm1(std::clamp(log_samples, 0.0, 40.0)) / useful_rate(points);
+    return barrier_for(last.samples, last.samples + more);
   };
   Promise promise = times_for(points, {barrier(way), barrier(way - off), barrier(way + off)});
   promise.error = {target, target, target};

@@ -5,10 +5,11 @@ namespace sateen {
 
 /// What a running render knows of itself at a barrier.
 struct ErrorPoint {
-  double samples = 0;      ///< mean a pixel
-  double error = 0;        ///< E
-  double high = 0;         ///< upper end of its interval
-  double seconds = 0;      ///< wall clock so far
+  double samples = 0;  ///< mean a pixel
+  double useful = 0;   ///< of these, the mean that went to pixels with noise: E follows it, empty pixels stop early
+  double error = 0;    ///< E
+  double high = 0;     ///< upper end of its interval
+  double seconds = 0;  ///< wall clock so far
   double cpu_seconds = 0;  ///< so far, all threads
 };
 
@@ -27,8 +28,8 @@ struct Promise {
   Forecast cpu_seconds;  ///< of the whole render, all threads
 };
 
-/// How log E falls with log samples on this very run: least squares over the points so far, pulled to what other
-/// scenes showed while they are few. `deviation`: standard deviation of the slope.
+/// How log E falls with log useful samples on this very run: least squares over the points so far, pulled to what
+/// other scenes showed while they are few. `deviation`: standard deviation of the slope.
 struct ErrorSlope {
   double slope = 0, deviation = 0;
 };

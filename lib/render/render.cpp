@@ -92,11 +92,11 @@ struct Run {
     clock();
     state.error = picture_error(film);
     if (course.past.empty() || course.past.back().samples < course.samples)
-      course.past.push_back(
-          {double(course.samples), state.error.error, state.error.high, course.seconds, course.cpu_seconds});
+      course.past.push_back({double(course.samples), useful_samples(film), state.error.error, state.error.high,
+                             course.seconds, course.cpu_seconds});
     coming = forecast(course.past, settings.stop, seconds_before);
-    // The promise wants a look at how samples are dealt out, and about 2 % of the work.
-    if (!course.promise.made && coming.made && course.samples >= 2 * least_samples &&
+    // The promise wants two looks at how samples are dealt out, and about 2 % of the work.
+    if (!course.promise.made && coming.made && course.samples >= 3 * least_samples &&
         course.samples >= 0.02 * coming.samples.value)
       course.promise = coming;
     state.promise = course.promise;
@@ -116,6 +116,8 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
   run.tracing = now();
   run.state.samples = course.samples;
   run.state.target = settings.stop.error;
+  if (course.promised_for != settings.stop) course.promise = {};
+  course.promised_for = settings.stop;
   if (course.targets.empty()) {
     course.barrier = next_barrier(0);
     course.targets = allocate(film, settings.crop, course.barrier, settings.adaptive);
@@ -128,6 +130,8 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
     result.deviation = deviation_of_share(film);
     result.seconds = run.state.seconds;
     result.cpu_seconds = course.cpu_seconds - run.cpu_before;
+    result.total_seconds = course.seconds;
+    result.total_cpu_seconds = course.cpu_seconds;
     result.promise = course.promise;
     result.rays = course.rays;
     return result;

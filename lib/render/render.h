@@ -16,6 +16,8 @@ struct StopRules {
   int spp = 0;         ///< samples per pixel; their mean where samples are dealt out by error
   double error = 0;    ///< upper end of the interval of E (film/error.h), looked at at barriers (render/allocation.h)
   double seconds = 0;  ///< wall clock, from the start of render()
+
+  bool operator==(const StopRules&) const = default;
 };
 
 struct RenderSettings {
@@ -35,6 +37,7 @@ struct Course {
   std::vector<std::uint32_t> targets;  ///< of every pixel at that barrier
   std::vector<ErrorPoint> past;        ///< one a barrier
   Promise promise;
+  StopRules promised_for;               ///< another promise is made once these change
   double seconds = 0, cpu_seconds = 0;  ///< of all runs so far
   RayCounts rays;
 };
@@ -55,8 +58,9 @@ struct RenderResult {
   StopReason reason = StopReason::samples;
   int samples = 0;  ///< mean a pixel
   PictureError error;
-  double deviation = 0;                 ///< 95 % of the pixels are within this of their final value
-  double seconds = 0, cpu_seconds = 0;  ///< of this run
+  double deviation = 0;                             ///< 95 % of the pixels are within this of their final value
+  double seconds = 0, cpu_seconds = 0;              ///< of this run
+  double total_seconds = 0, total_cpu_seconds = 0;  ///< with the runs that it went on from
   double first_pass_seconds = 0;
   Promise promise;
   RayCounts rays;
