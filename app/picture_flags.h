@@ -19,7 +19,7 @@ struct PictureFlags {
   std::string ocio, working, stats;
   std::string strategy = "auto", effects = "auto", layers = "all";
   std::string progress_name = "auto";
-  bool strict = false, dry_run = false, quiet = false, verbose = false;
+  bool strict = false, adaptive = false, dry_run = false, quiet = false, verbose = false;
   int seed = 1;
 
   std::vector<std::string> layer_list;            ///< settled from `layers`

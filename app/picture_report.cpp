@@ -71,6 +71,17 @@ std::string reason_text(const StopRules& stop, const RenderResult& result) {
   return "stopped by a signal: the pictures hold the samples that were done";
 }
 
+std::string percent_text(double share) {
+  return fmt::format("{:.2g} %", 100 * share);
+}
+
+// One unit for the three, and no more digits than the interval deserves.
+std::string forecast_text(const Forecast& f) {
+  if (f.value >= 60) return fmt::format("{} ({} to {})", clock_text(f.value), clock_text(f.low), clock_text(f.high));
+  const int digits = f.value < 9.95 ? 1 : 0;
+  return fmt::format("{:.{}f} s ({:.{}f} to {:.{}f})", f.value, digits, f.low, digits, f.high, digits);
+}
+
 long long peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -95,6 +106,7 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   if (!job.strategy_reason.empty()) w.member("strategy_reason", job.strategy_reason);
   w.member("effects", job.effects);
   w.member("bounces", job.render.light.bounces).member("seed", job.render.seed);
+  w.member("adaptive", job.render.adaptive).member("samples_from", job.first_sample);
   w.member("threads", thread_count(job.render.threads));
   const StopRules& stop = job.render.stop;
   w.key("asked").open_object();
@@ -183,6 +195,18 @@ void write_result(JsonWriter& w, const RenderResult& result, const std::vector<W
         .close();
   else
     w.null();
+  if (result.error.known) w.member("deviation_95", result.deviation);
+  if (const Promise& p = result.promise; p.made) {
+    const auto forecast = [&](const char* name, const Forecast& f) {
+      w.key(name).open_object().member("value", f.value).member("low", f.low).member("high", f.high).close();
+    };
+    w.key("promise").open_object().member("made_at_seconds", p.made_at_seconds);
+    forecast("error", p.error);
+    forecast("samples", p.samples);
+    forecast("seconds", p.seconds);
+    forecast("cpu_seconds", p.cpu_seconds);
+    w.close();
+  }
   w.member("seconds", result.seconds).member("cpu_seconds", result.cpu_seconds);
   w.member("first_pass_seconds", result.first_pass_seconds).member("peak_memory_bytes", peak_memory_bytes());
   w.key("rays").open_object().member("camera", result.rays.camera).member("shadow", result.rays.shadow);
@@ -210,6 +234,11 @@ void print_written(const PictureJob& job, const WrittenPicture& file) {
 void print_result_line(const PictureJob& job, const RenderResult& result) {
   print_note(fmt::format("{} in {}, {}; {}", samples_text(result.samples), seconds_text(result.seconds),
                          error_text(result.error), reason_text(job.render.stop, result)));
+  if (result.error.known && result.error.error > 0)
+    print_note(fmt::format("95 % of pixels are within {} of their final value", percent_text(result.deviation)));
+  if (const Promise& p = result.promise; p.made && result.reason != StopReason::interrupted)
+    print_note(fmt::format("promised: {}, {:.1f} CPU-s; it took {}, {:.1f} CPU-s", forecast_text(p.seconds),
+                           p.cpu_seconds.value, seconds_text(result.total_seconds), result.total_cpu_seconds));
   print_detail(fmt::format(
       "first complete pass after {:.2f} s; {:.1f} CPU-s; rays: {} camera, {} shadow, {} bounce; peak memory {}",
       result.first_pass_seconds, result.cpu_seconds, count_text(result.rays.camera), count_text(result.rays.shadow),
@@ -218,6 +247,14 @@ void print_result_line(const PictureJob& job, const RenderResult& result) {
     print_warning(
         fmt::format("{} samples were not finite and were left out: please report this with its command line",
                     result.rays.non_finite));
+}
+
+void print_promise(const PictureJob& job, const Promise& promise) {
+  const bool asked = job.render.stop.error > 0 && promise.error.low == promise.error.high;
+  print_note(fmt::format(
+      "E {}{} in {}, {:.1f} CPU-s", percent_text(promise.error.value),
+      asked ? "" : fmt::format(" ({} to {})", percent_text(promise.error.low), percent_text(promise.error.high)),
+      forecast_text(promise.seconds), promise.cpu_seconds.value));
 }
 
 int picture_code(const PictureFlags& flags, const RenderResult& result) {

@@ -29,6 +29,9 @@ void print_written(const PictureJob& job, const WrittenPicture& file);
 /// Samples, time, error and the rule that stopped; complaints about samples that were not finite.
 void print_result_line(const PictureJob& job, const RenderResult& result);
 
+/// "E 1 % in 41 s (36 to 47), 80 CPU-s": said once, early on.
+void print_promise(const PictureJob& job, const Promise& promise);
+
 /// The exit code that a finished picture asks for.
 int picture_code(const PictureFlags& flags, const RenderResult& result);
 

@@ -1,3 +1,5 @@
+#include "render.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,8 +8,8 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
-#include "picture_flags.h"
 #include "picture_report.h"
+#include "render/checkpoint.h"
 #include "render/exposure.h"
 #include "signals.h"
 
@@ -15,6 +17,9 @@ namespace sateen::app {
 
 namespace {
 void describe(Command& c) {
+  c.paragraph(
+      "SIGUSR1 writes the pictures so far and rendering goes on. SIGINT and SIGTERM write them and a checkpoint, "
+      "which --resume goes on from.");
   c.example("sateen render", "the default satin on the default drape: sateen.png and sateen.exr");
   c.example("sateen render --look emerald_satin --env low_sun -o emerald.png", "another cloth under another light");
   c.example("sateen render -m dress.obj -l black_charmeuse --error 0.02 --time 5m -o dress.exr -o dress.png",
@@ -23,24 +28,121 @@ void describe(Command& c) {
             "one field of the look changed, seen from the right and closer");
   c.example("sateen render --env studio.hdr --env-rotate 90 --backdrop environment -s 256 -o scene.jpg",
             "the light itself behind the cloth");
+  c.example("sateen render --error 0.02 -o a.exr --checkpoint a.checkpoint",
+            "later: the same with --error 0.01 --resume a.checkpoint, from where it was");
+}
+
+void add_going_on(Command& c, RenderFlags& f) {
+  c.group("Going on");
+  c.text("--checkpoint", "FILE", f.checkpoint,
+         "keeps all sums there, every five minutes and at the end (a signal: beside the first picture without it)");
+  c.custom(
+      "--checkpoint-every", "T", 1, 1,
+      [&f](const auto& w) { f.checkpoint_every = read_duration("--checkpoint-every", w.back()); },
+      "how often the checkpoint is written anew (default: 5m)");
+  c.text("--resume", "FILE", f.resume,
+         "goes on from a checkpoint of the same picture: the same bits as a render that never stopped");
+  c.integer("--samples-from", "N", f.first_sample, 0, 1 << 30,
+            "first sample of a range, a multiple of 4, for sateen merge (default: 0)");
+}
+
+/// One picture on its way: what is written of it, at the end and in between.
+struct Work {
+  const RenderFlags& flags;
+  const std::vector<std::string>& words;
+  const PictureJob& job;
+  const SceneReport& report;
+  const ColorManager& colors;
+  Checkpoint state;
+
+  std::vector<WrittenPicture> write_pictures(const RenderResult& result) const {
+    PictureContent content;
+    content.film = &state.film;
+    content.crop = job.render.crop;
+    content.layers = job.layers;
+    content.display = job.display;
+    content.exposure_ev = job.exposure_ev;
+    content.attributes = picture_attributes(job, report, result);
+    std::vector<WrittenPicture> written;
+    for (const std::string& output : flags.picture.outputs) written.push_back(write_picture(output, content, colors));
+    return written;
+  }
+
+  void snapshot(const RenderResult& result, bool asked, Progress& progress) const {
+    // A full disk now must not cost what is rendered: it may have room again at the end.
+    try {
+      if (!flags.checkpoint.empty()) write_checkpoint(flags.checkpoint, state);
+      if (!asked) return;
+      const std::vector<WrittenPicture> written = write_pictures(result);
+      progress.clear_line();
+      for (const WrittenPicture& file : written) print_written(job, file);
+    } catch (const OperationError& error) {
+      progress.clear_line();
+      print_warning(error.what());
+    }
+  }
+};
+
+void start(Work& work) {
+  const RenderFlags& f = work.flags;
+  Checkpoint& state = work.state;
+  if (f.resume.empty()) {
+    const auto& outputs = f.picture.outputs;
+    const bool layers =
+        !f.checkpoint.empty() || std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return is_exr(o); });
+    state.film = Film(work.job.scene.width, work.job.scene.height, layers && !work.job.layers.empty());
+    state.film.first_sample = std::uint32_t(f.first_sample);
+    state.facts = sampling_facts(work.job, work.report);
+    state.words = work.words;
+    return;
+  }
+  check_same_job(f.resume, state.facts, sampling_facts(work.job, work.report));
+  if (state.film.layers.empty() && !work.job.layers.empty() && is_exr(f.picture.outputs[0]))
+    throw InputError(fmt::format("{} holds no layers, which an EXR wants", f.resume), "add --aov none");
+  print_note(fmt::format("{} goes on at {} samples a pixel", f.resume, state.course.samples));
 }
 }  // namespace
 
-int run_render(const std::vector<std::string>& words) {
-  PictureFlags flags;
+bool read_render_flags(const std::vector<std::string>& words, RenderFlags& flags) {
   Command command("render",
                   "Renders one picture. Without any flag: the default satin, to sateen.png and sateen.exr here.",
                   "[--look NAME] [--mesh FILE] [--env MAP] [-o FILE]... [flags]");
-  add_picture_flags(command, flags);
+  add_picture_flags(command, flags.picture);
+  add_going_on(command, flags);
   describe(command);
-  if (!command.parse(words)) return done;
+  if (!command.parse(words)) return false;
   constexpr int default_spp = 128;
-  settle_picture_flags(command, flags, default_spp);
-  if (flags.outputs.empty()) flags.outputs = {"sateen.png", "sateen.exr"};
+  settle_picture_flags(command, flags.picture, default_spp);
+  flags.adaptive_given = command.given("--adaptive");
+  PictureFlags& p = flags.picture;
+  if (p.outputs.empty()) p.outputs = {"sateen.png", "sateen.exr"};
+  if (flags.first_sample % replicates != 0)
+    throw InputError(fmt::format("--samples-from is {}, expected a multiple of {}", flags.first_sample, replicates));
+  if (command.given("--samples-from")) {
+    if (flags.adaptive_given && p.render.adaptive)
+      throw InputError("--samples-from wants the same samples everywhere, and --adaptive deals them out by error");
+    p.render.adaptive = false;
+  }
+  return true;
+}
+
+int run_render(const std::vector<std::string>& words) {
+  RenderFlags all;
+  if (!read_render_flags(words, all)) return done;
+  PictureFlags& flags = all.picture;
   std::set<std::string> names;
   for (const std::string& output : flags.outputs) {
     check_picture_path(output, !flags.dry_run);
     if (!names.insert(output).second) throw InputError(fmt::format("--output {} is given twice", output));
+  }
+  Checkpoint begun;
+  if (!all.resume.empty()) {
+    begun = read_checkpoint(all.resume);
+    all.first_sample = int(begun.film.first_sample);
+    // Not part of the picture asked for, but of how it was begun.
+    if (!all.adaptive_given)
+      for (const Fact& fact : begun.facts)
+        if (fact.name == "adaptive") flags.render.adaptive = fact.value == "yes";
   }
 
   const ColorManager colors(flags.ocio, flags.working);
@@ -48,37 +150,48 @@ int run_render(const std::vector<std::string>& words) {
   SceneReport report;
   Scene scene = assemble_scene(flags.scene, colors, report);
   report.metered_ev = metered_towards(scene.environment, flags.scene.camera.azimuth_deg, flags.scene.environment_ev);
-  const PictureJob job = make_job(flags, report, scene, colors, "render " + shell_line(words));
+  PictureJob job = make_job(flags, report, scene, colors, "render " + shell_line(words));
+  job.first_sample = all.first_sample;
   print_scene(flags, job, report);
+  Work work{all, words, job, report, colors, std::move(begun)};
+  start(work);
   if (flags.dry_run) return report_dry_run(flags, job, report);
 
-  const bool any_exr =
-      std::any_of(flags.outputs.begin(), flags.outputs.end(), [](const auto& o) { return is_exr(o); });
-  Film film(flags.scene.width, flags.scene.height, any_exr && !job.layers.empty());
   Progress progress(flags.progress, progress_writer(flags.progress));
   const StopOnSignal stop_on_signal;
-  const RenderResult result = render(
-      scene, job.render, film, [&](const RenderState& state) { progress.update(state); }, &interrupted);
+  bool promised = work.state.course.promise.made;
+  RenderHooks hooks;
+  hooks.interrupt = &interrupted;
+  hooks.snapshot_wanted = &picture_wanted;
+  hooks.snapshot_every = all.checkpoint.empty() ? 0 : all.checkpoint_every;
+  hooks.observe = [&](const RenderState& state) {
+    if (state.promise.made && !promised) {
+      promised = true;
+      progress.clear_line();
+      print_promise(job, state.promise);
+    }
+    progress.update(state);
+  };
+  hooks.snapshot = [&](const RenderResult& result, bool asked) { work.snapshot(result, asked, progress); };
+  const RenderResult result = render(scene, job.render, work.state.film, work.state.course, hooks);
 
-  PictureContent content;
-  content.film = &film;
-  content.crop = flags.render.crop;
-  content.layers = job.layers;
-  content.display = job.display;
-  content.exposure_ev = job.exposure_ev;
-  content.attributes = picture_attributes(job, report, result);
-  std::vector<WrittenPicture> written;
-  for (const std::string& output : flags.outputs) written.push_back(write_picture(output, content, colors));
-  if (result.reason == StopReason::interrupted) progress.stopped();
+  const std::vector<WrittenPicture> written = work.write_pictures(result);
+  const bool stopped = result.reason == StopReason::interrupted;
+  std::string checkpoint = all.checkpoint;
+  if (stopped && checkpoint.empty()) checkpoint = flags.outputs[0] + ".checkpoint";
+  if (!checkpoint.empty()) write_checkpoint(checkpoint, work.state);
+  if (stopped) progress.stopped();
   progress.done();
 
   for (const WrittenPicture& file : written) print_written(job, file);
   print_result_line(job, result);
+  if (stopped) print_note(fmt::format("--resume {} goes on from here", shell_line({checkpoint})));
   const int code = picture_code(flags, result);
   JsonWriter w;
   w.open_object();
   write_job(w, flags, job, report);
   write_result(w, result, written);
+  if (!checkpoint.empty()) w.member("checkpoint", checkpoint);
   write_stats(flags, w.member("exit_code", code).close().text());
   return code;
 }

@@ -6,6 +6,7 @@
 namespace sateen::app {
 
 std::atomic<bool> interrupted = false;
+std::atomic<bool> picture_wanted = false;
 
 namespace {
 std::atomic<int> received = 0;
@@ -20,6 +21,10 @@ void on_signal(int number) {
   }
   interrupted = true;
 }
+
+void on_request(int) {
+  if (guards.load() > 0) picture_wanted = true;
+}
 }  // namespace
 
 void install_signals() {
@@ -28,6 +33,8 @@ void install_signals() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  action.sa_handler = on_request;
+  sigaction(SIGUSR1, &action, nullptr);
   // A reader that went away must not cost a rendered picture.
   std::signal(SIGPIPE, SIG_IGN);
 }

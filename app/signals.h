@@ -17,6 +17,9 @@ class StopOnSignal {
 
 extern std::atomic<bool> interrupted;
 
+/// SIGUSR1 raises this: the picture so far is wanted. Outside a StopOnSignal the signal does nothing.
+extern std::atomic<bool> picture_wanted;
+
 /// Number of the signal that raised `interrupted`; 0 while none has.
 int signal_received();
 

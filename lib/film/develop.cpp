@@ -3,6 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include "film/error.h"
+
 namespace sateen {
 
 namespace {
@@ -25,7 +27,9 @@ void put(const Vec3& v, float* to) {
 }
 
 // A mean over samples, or over hits.
-Vec3 mean(const Vec3& sum, std::uint32_t count) { return count ? sum / float(count) : Vec3(0); }
+Vec3 mean(const Vec3& sum, std::uint64_t count) {
+  return count ? sum / float(count) : Vec3(0);
+}
 
 }  // namespace
 
@@ -34,7 +38,7 @@ Image develop_beauty(const Film& film) {
   for (size_t i = 0; i < film.pixels.size(); ++i) {
     const FilmPixel& pixel = film.pixels[i];
     put(pixel_mean(pixel), &image.pixels[i * 4]);
-    image.pixels[i * 4 + 3] = pixel.samples ? pixel.alpha / float(pixel.samples) : 0;
+    image.pixels[i * 4 + 3] = pixel.samples ? float(pixel.alpha / double(pixel.samples)) : 0;
   }
   return image;
 }
@@ -76,10 +80,10 @@ std::vector<ImageLayer> develop_layers(const Film& film) {
       to[1] = l.hits ? l.uv.y / float(l.hits) : 0;
     }));
   }
-  all.push_back(layer(film, "error", rgb, [](P p, L, float* to) {
-    const Color variance = pixel_variance(p);
-    for (int c = 0; c < 3; ++c) to[c] = std::sqrt(variance[c]);
-  }));
+  all.push_back(layer(film, "error", rgb, [](P, L, float*) {}));
+  const std::vector<Color> variances = pooled_variances(film);
+  for (size_t i = 0; i < variances.size(); ++i)
+    for (size_t c = 0; c < 3; ++c) all.back().image.pixels[3 * i + c] = std::sqrt(variances[i][int(c)]);
   all.push_back(layer(film, "samples", {"Y"}, [](P p, L, float* to) { to[0] = float(p.samples); }));
   return all;
 }

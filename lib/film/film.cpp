@@ -7,68 +7,68 @@ namespace sateen {
 
 namespace {
 // Samples of replicate r among the first n of a pixel.
-int replicate_count(std::uint32_t n, int r) {
-  return int((n + replicates - 1 - std::uint32_t(r)) / replicates);
+std::uint64_t replicate_count(std::uint64_t n, int r) {
+  return (n + replicates - 1 - std::uint64_t(r)) / replicates;
 }
 }  // namespace
 
+void add_sample(FilmPixel& pixel, const Color& value, float alpha, double grain) {
+  Vec3d& sum = pixel.beauty[pixel.samples % replicates];
+  for (int c = 0; c < 3; ++c) sum[c] += std::nearbyint(double(value[c]) / grain) * grain;
+  pixel.alpha += std::nearbyint(double(alpha) * 0x1p33) * 0x1p-33;
+  ++pixel.samples;
+}
+
 Color pixel_mean(const FilmPixel& pixel) {
   if (pixel.samples == 0) return Color(0);
-  Color sum(0);
-  for (const Color& c : pixel.beauty) sum += c;
-  return sum / float(pixel.samples);
+  Vec3d sum(0);
+  for (const Vec3d& v : pixel.beauty) sum += v;
+  sum /= double(pixel.samples);
+  return {float(sum.x), float(sum.y), float(sum.z)};
 }
 
 Color pixel_variance(const FilmPixel& pixel) {
-  const int used = int(std::min<std::uint32_t>(pixel.samples, replicates));
+  const int used = int(std::min<std::uint64_t>(pixel.samples, replicates));
   if (used < 2) return Color(0);
   // Replicate r weighs n_r / n and its mean varies as 1 / n_r: then the weighted scatter has the expectation
   // (replicates - 1) times the variance of the mean of all, also where the last round is not whole.
-  const Color mean = pixel_mean(pixel);
-  Color scatter(0);
+  Vec3d mean(0), scatter(0);
+  for (const Vec3d& v : pixel.beauty) mean += v;
+  mean /= double(pixel.samples);
   for (int r = 0; r < used; ++r) {
-    const float share = float(replicate_count(pixel.samples, r)) / float(pixel.samples);
-    const Color off = pixel.beauty[r] / float(replicate_count(pixel.samples, r)) - mean;
-    scatter += off * off * share;
+    const double count = double(replicate_count(pixel.samples, r));
+    const Vec3d off = pixel.beauty[size_t(r)] / count - mean;
+    scatter += off * off * (count / double(pixel.samples));
   }
-  return scatter / float(used - 1);
+  scatter /= double(used - 1);
+  return {float(scatter.x), float(scatter.y), float(scatter.z)};
 }
 
-PictureError picture_error(const Film& film) {
-  PictureError result;
-  // Neighbouring pixels share geometry and so the size of their variance: the interval comes from whole blocks.
-  constexpr int block = 16;
-  std::vector<double> sums, counts;
-  for (int by = 0; by < film.height; by += block)
-    for (int bx = 0; bx < film.width; bx += block) {
-      double sum = 0, count = 0;
-      const int y1 = std::min(by + block, film.height), x1 = std::min(bx + block, film.width);
-      for (int y = by; y < y1; ++y)
-        for (int x = bx; x < x1; ++x) {
-          const FilmPixel& pixel = film.pixels[size_t(y) * size_t(film.width) + size_t(x)];
-          // Outside a crop, or after an interrupted first pass, there is nothing to be wrong.
-          if (pixel.samples < 2) continue;
-          ++count;
-          const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
-          for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (double(mean[c]) * mean[c] + 0.01);
-        }
-      if (count == 0) continue;
-      sums.push_back(sum / 3);
-      counts.push_back(count);
+void add_film(Film& film, const Film& other) {
+  for (size_t i = 0; i < film.pixels.size(); ++i) {
+    FilmPixel& to = film.pixels[i];
+    const FilmPixel& from = other.pixels[i];
+    for (size_t r = 0; r < replicates; ++r) to.beauty[r] += from.beauty[r];
+    to.alpha += from.alpha;
+    to.samples += from.samples;
+  }
+  for (size_t i = 0; i < film.layers.size() && i < other.layers.size(); ++i) {
+    LayerPixel& to = film.layers[i];
+    const LayerPixel& from = other.layers[i];
+    for (int family = 0; family < 2; ++family) {
+      to.surface[family] += from.surface[family];
+      to.volume[family] += from.volume[family];
     }
-  if (sums.empty()) return result;
-  double total = 0, pixels = 0;
-  for (size_t i = 0; i < sums.size(); ++i) total += sums[i], pixels += counts[i];
-  const double mean = total / pixels;
-  double spread = 0;
-  for (size_t i = 0; i < sums.size(); ++i) spread += (sums[i] - mean * counts[i]) * (sums[i] - mean * counts[i]);
-  const double n = double(sums.size());
-  const double deviation = n > 1 ? std::sqrt(spread * n / (n - 1)) / pixels : mean;
-  result.known = true;
-  result.error = std::sqrt(mean);
-  result.low = std::sqrt(std::max(mean - 1.96 * deviation, 0.0));
-  result.high = std::sqrt(mean + 1.96 * deviation);
-  return result;
+    to.indirect += from.indirect;
+    to.backdrop += from.backdrop;
+    to.albedo += from.albedo;
+    to.normal += from.normal;
+    to.position += from.position;
+    to.warp += from.warp;
+    to.uv += from.uv;
+    to.hits += from.hits;
+  }
+  film.first_sample = std::min(film.first_sample, other.first_sample);
 }
 
 }  // namespace sateen

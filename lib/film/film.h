@@ -9,14 +9,16 @@
 namespace sateen {
 
 /// Independent randomised replicates of the picture: sample i of a pixel belongs to replicate i mod this. Their
-/// scatter is the error; more of them estimate it better and cost some of the low-discrepancy sequence's gain.
+/// scatter is the error. Measured on seven scenes at 32 and 128 samples a pixel against one sequence, squared error:
+/// 4 replicates cost 1.28 and 1.14 times, 8 1.52 and 1.30, 16 1.83 and 1.46. What 8 and 16 know better about a single
+/// pixel, four know from its neighbours as well (film/error.h).
 inline constexpr int replicates = 4;
 
 /// Sums of one pixel. A pixel owns its sums and its sample sequence, so bits do not depend on who computes.
 struct FilmPixel {
-  std::array<Color, replicates> beauty{Color(0), Color(0), Color(0), Color(0)};
-  float alpha = 0;
-  std::uint32_t samples = 0;
+  std::array<Vec3d, replicates> beauty{Vec3d(0), Vec3d(0), Vec3d(0), Vec3d(0)};
+  double alpha = 0;
+  std::uint64_t samples = 0;
 };
 
 /// Sums of the layers beside the beauty; kept only where asked for.
@@ -30,12 +32,21 @@ struct LayerPixel {
 
 struct Film {
   int width = 0, height = 0;
+  /// Number in its sequence of a pixel's first sample: a multiple of `replicates`.
+  std::uint32_t first_sample = 0;
+  /// Samples enter the sums as multiples of this power of two, so that sums are exact, in any order, while they stay
+  /// below 2^53 of it: 2^20 samples at the map's mean light a replicate. What is beyond is rounded as double is.
+  double grain = 0x1p-33;
   std::vector<FilmPixel> pixels;
   std::vector<LayerPixel> layers;  ///< empty, or one a pixel
 
+  Film() = default;
   Film(int w, int h, bool with_layers)
       : width(w), height(h), pixels(size_t(w) * size_t(h)), layers(with_layers ? pixels.size() : 0) {}
 };
+
+/// Adds one sample to a pixel's beauty and alpha.
+void add_sample(FilmPixel& pixel, const Color& value, float alpha, double grain);
 
 /// Mean of all samples of a pixel; black where it has none.
 Color pixel_mean(const FilmPixel& pixel);
@@ -43,13 +54,8 @@ Color pixel_mean(const FilmPixel& pixel);
 /// Variance of that mean in every channel, from the scatter of the replicates; 0 while fewer than two have samples.
 Color pixel_variance(const FilmPixel& pixel);
 
-/// Error of a picture: E = sqrt(mean over pixels and channels of variance / (value^2 + 0.01)), values at exposure 0,
-/// and the ends of its 95 % interval from the scatter over blocks of pixels. Pixels with fewer than 2 samples do not
-/// count; `known` is false where there are no others.
-struct PictureError {
-  bool known = false;
-  double error = 0, low = 0, high = 0;
-};
-PictureError picture_error(const Film& film);
+/// Adds the samples of `other` to `film`. Beauty, alpha, samples and so the error become what one render of all would
+/// have, bit for bit; the layers beside them to float's roundings. Films of one size, with layers or without.
+void add_film(Film& film, const Film& other);
 
 }  // namespace sateen

@@ -38,21 +38,53 @@ std::string stop_reason_text(StopReason reason) {
   return "interrupted";
 }
 
-std::string job_hash(const PictureJob& job, const SceneReport& report) {
+std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& report) {
   const SceneSettings& s = job.scene;
   const CameraSettings& c = s.camera;
+  const RenderSettings& r = job.render;
+  const auto number = [](const auto& v) { return fmt::format("{}", v); };
+  const auto named = [](const std::string& name, const std::string& hash) { return name + " (" + hash + ")"; };
+  return {
+      {"version", job.version, {}},
+      {"look", report.look_hash, named(report.look.name, report.look_hash)},
+      {"mesh", report.mesh_hash, named(s.mesh, report.mesh_hash)},
+      {"map", report.environment_hash, named(s.environment, report.environment_hash)},
+      {"level", number(report.level), {}},
+      {"warp angle", number(s.warp_angle_deg), {}},
+      {"map space", s.environment_space, {}},
+      {"map rotation", number(s.environment_rotation_deg), {}},
+      {"map exposure", number(s.environment_ev), {}},
+      {"backdrop", backdrop_text(job), {}},
+      {"turn", job.turn, {}},
+      {"azimuth", number(c.azimuth_deg), {}},
+      {"elevation", number(c.elevation_deg), {}},
+      {"fov", number(c.fov_deg), {}},
+      {"margin", number(c.margin), {}},
+      {"zoom", number(c.zoom), {}},
+      {"size", fmt::format("{} x {}", s.width, s.height), {}},
+      {"crop", fmt::format("{} {} {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1), {}},
+      {"strategy", strategy_name(r.light.strategy), {}},
+      {"candidates", number(r.light.candidates), {}},
+      {"bounces", number(r.light.bounces), {}},
+      {"seed", number(r.seed), {}},
+      {"adaptive", r.adaptive ? "yes" : "no", {}},
+      {"layer albedo", r.albedo_layer ? "yes" : "no", {}},
+      {"effects", job.effects, {}},
+      {"colour config", job.color_config, {}},
+      {"working space", job.working_space, {}},
+  };
+}
+
+std::string job_hash(const PictureJob& job, const SceneReport& report) {
   const RenderSettings& r = job.render;
   Hash hash;
   const auto add = [&](const auto&... values) {
     // A separator between all parts, so that "a" "bc" is not "ab" "c".
     (hash.add(fmt::format("{}", values)).add("\n"), ...);
   };
-  add(job.version, report.look_hash, report.mesh_hash, report.environment_hash, report.level, s.warp_angle_deg);
-  add(s.environment_space, s.environment_rotation_deg, s.environment_ev, backdrop_text(job), job.turn);
-  add(c.azimuth_deg, c.elevation_deg, c.fov_deg, c.margin, c.zoom, s.width, s.height);
-  add(strategy_name(r.light.strategy), r.light.candidates, r.light.bounces, r.seed, job.effects);
-  add(r.stop.spp, r.stop.error, r.stop.seconds, r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1);
-  add(job.color_config, job.working_space, job.display.display, job.display.view, job.exposure_ev);
+  for (const Fact& fact : sampling_facts(job, report)) add(fact.value);
+  add(r.stop.spp, r.stop.error, r.stop.seconds, job.first_sample);
+  add(job.display.display, job.display.view, job.exposure_ev);
   add(job.display.transparent, job.display.ground.has_value());
   if (job.display.ground) add(job.display.ground->x, job.display.ground->y, job.display.ground->z);
   for (const std::string& layer : job.layers) add(layer);
@@ -97,6 +129,8 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   whole("bounces", r.light.bounces);
   text("effects", job.effects);
   whole("seed", r.seed);
+  text("adaptive", r.adaptive ? "yes" : "no");
+  if (job.first_sample > 0) whole("samples_from", job.first_sample);
   whole("spp", result.samples);
   if (r.stop.spp > 0) whole("spp_asked", r.stop.spp);
   if (r.stop.error > 0) real("error_asked", r.stop.error);
@@ -105,9 +139,21 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
     real("error", result.error.error);
     real("error_low", result.error.low);
     real("error_high", result.error.high);
+    real("deviation_95", result.deviation);
+  }
+  if (const Promise& p = result.promise; p.made) {
+    const auto forecast = [&](const std::string& name, const Forecast& f) {
+      real(("promised_" + name).c_str(), f.value);
+      real(("promised_" + name + "_low").c_str(), f.low);
+      real(("promised_" + name + "_high").c_str(), f.high);
+    };
+    forecast("error", p.error);
+    forecast("seconds", p.seconds);
+    forecast("cpu_seconds", p.cpu_seconds);
   }
   text("stopped_by", stop_reason_text(result.reason));
   real("seconds", result.seconds);
+  real("cpu_seconds", result.cpu_seconds);
   whole("non_finite", result.rays.non_finite);
   text("working_space", job.working_space);
   text("color_config", job.color_config);

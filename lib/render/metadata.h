@@ -19,8 +19,18 @@ struct PictureJob {
   std::string color_config;         ///< ColorManager::description()
   std::string working_space;
   std::string version, command_line;
-  std::string turn;  ///< of a turntable's frame, "object 40"; empty for a still
+  int first_sample = 0;  ///< number of a pixel's first sample
+  std::string turn;      ///< of a turntable's frame, "object 40"; empty for a still
 };
+
+/// One thing that decides what samples see. `shown`: how people are told of the value; empty: as it is.
+struct Fact {
+  std::string name, value, shown;
+};
+
+/// Everything that decides the samples of a pixel: look, mesh, map, camera, sampling. Not how many there are, nor how
+/// they are shown. Two renders of which all these agree can be joined and gone on with.
+std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& report);
 
 /// Hash of everything that decides the pixels: look, mesh, map, camera, sampling, colour, the program's version. Not
 /// the number of threads, the files' names or the command line.
@@ -29,7 +39,7 @@ std::string job_hash(const PictureJob& job, const SceneReport& report);
 /// The `sateen:*` attributes of a finished picture (README.md lists them) and Software.
 Attributes picture_attributes(const PictureJob& job, const SceneReport& report, const RenderResult& result);
 
-/// "asked samples", "asked error", "asked time", "interrupted".
+/// "samples", "error", "time", "interrupted".
 std::string stop_reason_text(StopReason reason);
 
 /// True where the file decodes, carries this job's hash, and was finished: with `spp` asked, at that many samples.

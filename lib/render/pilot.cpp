@@ -60,7 +60,7 @@ RowSums try_row(const Scene& scene, const LightSettings& light, std::uint32_t se
     for (int k = 0; k < samples; ++k) ids[size_t(k)] = {x, y, k % replicates, std::uint32_t(k / replicates)};
     trace_samples(scene, light, seed, ids, *scratch, out.data());
     for (int k = 0; k < samples; ++k) {
-      pixel.beauty[size_t(k % replicates)] += out[size_t(k)].total();
+      pixel.beauty[size_t(k % replicates)] += Vec3d(out[size_t(k)].total());
       ++pixel.samples;
       sums.hits += out[size_t(k)].hit;
     }

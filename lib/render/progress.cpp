@@ -18,6 +18,7 @@ double now() {
 std::string facts(const RenderState& state) {
   std::string text = fmt::format("{} spp", state.samples);
   if (state.error.known) text += fmt::format("  E {:.4f}", state.error.error);
+  if (state.error.known && state.target > 0) text += fmt::format(" of {:.4g}", state.target);
   if (state.seconds_left >= 0) text += fmt::format("  {} left", clock_text(state.seconds_left));
   return text;
 }

@@ -268,8 +268,80 @@ TEST(Render, ASignalStopsWithinTwoSecondsAndWritesWhatIsThere) {
     EXPECT_EQ(text_of(sateen::read_attributes(folder / "a.exr"), "stopped_by"), "interrupted");
     EXPECT_EQ(sateen::read_image(folder / "a.png").width, 240);
     EXPECT_EQ(run.err.find("\"percent\": 100"), std::string::npos);
-    EXPECT_EQ(files_in(folder), 3u);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr.checkpoint"));
+    EXPECT_EQ(files_in(folder), 4u);
   }
+}
+
+TEST(Render, GoesOnFromACheckpointToTheBitsOfARenderThatNeverStopped) {
+  const Folder folder;
+  const Start here{folder.path};
+  const auto pixels = [&](const char* name) { return sateen::read_image(folder / name).pixels; };
+  ASSERT_EQ(run_sateen(tiny({"-s", "64", "--adaptive", "-o", "whole.exr"}), here).code, 0);
+  ASSERT_EQ(run_sateen(tiny({"-s", "40", "--adaptive", "-o", "a.exr", "--checkpoint", "a.checkpoint"}), here).code,
+            0);
+  const Finished on = run_sateen(tiny({"-s", "64", "-t", "1", "-o", "b.exr", "--resume", "a.checkpoint"}), here);
+  ASSERT_EQ(on.code, 0) << on.err;
+  EXPECT_NE(on.out.find("goes on at 40 samples"), std::string::npos) << on.out;
+  EXPECT_EQ(pixels("b.exr"), pixels("whole.exr"));
+  EXPECT_NE(pixels("a.exr"), pixels("whole.exr"));
+
+  const Finished other =
+      run_sateen(tiny({"-l", "emerald_satin", "--seed", "2", "-o", "b.exr", "--resume", "a.checkpoint"}), here);
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("look is champagne_silk_satin"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("seed is 1 there and 2 here"), std::string::npos) << other.err;
+  std::string damaged = read_text(folder / "a.checkpoint");
+  damaged[damaged.size() / 2] = char(damaged[damaged.size() / 2] + 1);
+  write_text(folder / "bad.checkpoint", damaged);
+  EXPECT_EQ(run_sateen(tiny({"-o", "b.exr", "--resume", "bad.checkpoint"}), here).code, 3);
+  write_text(folder / "bad.checkpoint", damaged.substr(0, damaged.size() / 3));
+  EXPECT_EQ(run_sateen(tiny({"-o", "b.exr", "--resume", "bad.checkpoint"}), here).code, 3);
+  EXPECT_EQ(run_sateen(tiny({"-o", "b.exr", "--resume", "a.exr"}), here).code, 3);
+}
+
+TEST(Render, SigUsr1WritesThePictureSoFarAndGoesOn) {
+  const Folder folder;
+  Start start;
+  start.folder = folder.path;
+  start.signal = SIGUSR1;
+  start.signal_after = "\"percent\"";
+  const Finished run = run_sateen({"render", "-m", "swatch", "--level", "0", "-r", "120", "68", "-s", "400",
+                                   "--progress", "json", "-o", "a.exr", "--aov", "none"},
+                                  start);
+  EXPECT_EQ(run.code, 0) << run.err;
+  size_t writes = 0;
+  for (size_t at = 0; (at = run.out.find("wrote a.exr", at)) != std::string::npos; ++at) ++writes;
+  EXPECT_EQ(writes, 2u) << run.out;
+  EXPECT_EQ(whole_of(sateen::read_attributes(folder / "a.exr"), "spp"), 400);
+  EXPECT_EQ(files_in(folder), 1u);
+}
+
+TEST(Merge, JoinsRangesOfSamplesToTheBitsOfOneRender) {
+  const Folder folder;
+  const Start here{folder.path};
+  const auto part = [&](const char* first, const char* count, const char* name) {
+    return run_sateen(tiny({"-s", count, "--samples-from", first, "-o", "p.png", "--aov", "error,samples",
+                            "--checkpoint", name}),
+                      here)
+        .code;
+  };
+  ASSERT_EQ(part("0", "20", "a"), 0);
+  ASSERT_EQ(part("20", "12", "b"), 0);
+  ASSERT_EQ(part("32", "7", "c"), 0);
+  ASSERT_EQ(part("16", "8", "over"), 0);
+  ASSERT_EQ(run_sateen(tiny({"-s", "39", "-o", "whole.exr", "--aov", "error,samples"}), here).code, 0);
+  const Finished merged = run_sateen({"merge", "c", "a", "b", "-o", "sum.exr", "-o", "sum.png"}, here);
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(sateen::read_image(folder / "sum.exr").pixels, sateen::read_image(folder / "whole.exr").pixels);
+  EXPECT_EQ(whole_of(sateen::read_attributes(folder / "sum.exr"), "spp"), 39);
+  const Finished overlap = run_sateen({"merge", "a", "over", "-o", "sum.exr"}, here);
+  EXPECT_EQ(overlap.code, 2);
+  EXPECT_NE(overlap.err.find("samples 16 to 19"), std::string::npos) << overlap.err;
+  const Finished gap = run_sateen({"merge", "a", "c", "-o", "sum.exr"}, here);
+  EXPECT_EQ(gap.code, 2);
+  EXPECT_NE(gap.err.find("samples 20 to 31 are in none"), std::string::npos) << gap.err;
+  EXPECT_EQ(run_sateen(tiny({"--samples-from", "3", "-o", "p.png"}), here).code, 2);
 }
 
 TEST(Render, AReaderThatGoesAwayDoesNotCostThePicture) {

@@ -27,6 +27,13 @@ RenderSettings quick(std::uint32_t seed = 1) {
   return settings;
 }
 
+// Many samples of a window over four tiles.
+RenderSettings deep() {
+  RenderSettings settings = quick();
+  settings.crop = {40, 20, 76, 44};
+  return settings;
+}
+
 std::string rendered(const RenderSettings& settings, bool with_layers = false) {
   Film film(width, height, with_layers);
   const RenderResult result = render(sheer_scene(), settings, film);
@@ -93,16 +100,85 @@ TEST(SameBits, ForWindowsThatAreStitched) {
   EXPECT_EQ(film_hash(stitched), film_hash(whole));
 }
 
-TEST(SameBits, WhetherAskedForAtOnceOrInTwoParts) {
-  Film once(width, height, false), twice(width, height, false);
-  RenderSettings settings = quick();
-  settings.stop.spp = 12;
-  render(sheer_scene(), settings, once);
-  settings.stop.spp = 7;
-  render(sheer_scene(), settings, twice);
-  settings.stop.spp = 5;
-  render(sheer_scene(), settings, twice);
-  EXPECT_EQ(film_hash(once), film_hash(twice));
+// Stopped by samples, by an error and by a signal in the middle of a pass, gone on with each time, on other numbers
+// of threads: the same bits as a render that was never stopped. With samples dealt out by error and without.
+TEST(SameBits, HoweverOftenStoppedAndGoneOnWith) {
+  for (const bool adaptive : {false, true}) {
+    RenderSettings settings = deep();
+    settings.adaptive = adaptive;
+    settings.stop.spp = 64;
+    Film once(width, height, true), often(width, height, true);
+    EXPECT_EQ(render(sheer_scene(), settings, once).samples, 64);
+
+    Course course;
+    settings.threads = 1;
+    settings.stop.spp = 7;
+    EXPECT_EQ(render(sheer_scene(), settings, often, course, {}).reason, StopReason::samples);
+    settings.threads = 3;
+    settings.stop.spp = 64;
+    settings.stop.error = 0.5;
+    EXPECT_EQ(render(sheer_scene(), settings, often, course, {}).reason, StopReason::error);
+    settings.stop.error = 0;
+    std::atomic<bool> stop = false;
+    RenderHooks hooks;
+    hooks.interrupt = &stop;
+    int calls = 0;
+    hooks.observe = [&](const RenderState& state) { stop = state.samples >= 32 && ++calls == 2; };
+    EXPECT_EQ(render(sheer_scene(), settings, often, course, hooks).reason, StopReason::interrupted);
+    EXPECT_LT(course.samples, 64);
+    settings.threads = 2;
+    EXPECT_EQ(render(sheer_scene(), settings, often, course, {}).samples, 64);
+    EXPECT_EQ(film_hash(once), film_hash(often)) << (adaptive ? "adaptive" : "uniform");
+  }
+}
+
+TEST(SameBits, AdaptiveForAnyNumberOfThreads) {
+  RenderSettings settings = deep();
+  settings.adaptive = true;
+  settings.stop.spp = 48;
+  settings.threads = 1;
+  const std::string one = rendered(settings);
+  settings.threads = 3;
+  EXPECT_EQ(rendered(settings), one);
+  settings.adaptive = false;
+  EXPECT_NE(rendered(settings), one);
+}
+
+TEST(SameBits, WhetherOrNotAPictureIsAskedForOnTheWay) {
+  RenderSettings settings = deep();
+  settings.stop.spp = 48;
+  Film plain(width, height, false), watched(width, height, false);
+  render(sheer_scene(), settings, plain);
+  std::atomic<bool> wanted = true;
+  int shown = 0;
+  RenderHooks hooks;
+  hooks.snapshot_wanted = &wanted;
+  hooks.snapshot = [&](const RenderResult&, bool asked) {
+    EXPECT_TRUE(asked);
+    ++shown;
+  };
+  hooks.observe = [&](const RenderState& state) {
+    if (state.samples == 16 && shown == 1) wanted = true;
+  };
+  Course course;
+  render(sheer_scene(), settings, watched, course, hooks);
+  EXPECT_EQ(shown, 2);
+  EXPECT_EQ(film_hash(plain), film_hash(watched));
+}
+
+TEST(SameBits, OfRangesOfSamplesThatAreAddedUp) {
+  Film whole(width, height, false), sum(width, height, false);
+  RenderSettings settings = deep();
+  settings.stop.spp = 40;
+  render(sheer_scene(), settings, whole);
+  for (const auto& [first, count] : {std::pair(24, 16), std::pair(0, 8), std::pair(8, 16)}) {
+    Film part(width, height, false);
+    part.first_sample = std::uint32_t(first);
+    settings.stop.spp = count;
+    render(sheer_scene(), settings, part);
+    add_film(sum, part);
+  }
+  EXPECT_EQ(film_hash(whole), film_hash(sum));
 }
 
 TEST(SameBits, WithLayersAndWithout) {

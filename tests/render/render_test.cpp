@@ -37,8 +37,7 @@ TEST(StopRules, EndOnceTheUpperEndOfTheErrorIsBelowTheTarget) {
     const RenderResult result = render(satin_scene(), settings, film);
     EXPECT_EQ(result.reason, StopReason::error);
     EXPECT_LE(result.error.high, target);
-    EXPECT_EQ(result.samples % replicates, 0);
-    EXPECT_GE(result.samples, 4 * replicates);
+    EXPECT_EQ(next_barrier(result.samples - 1), result.samples) << "it is looked at at barriers alone";
   }
 }
 
@@ -67,7 +66,7 @@ TEST(StopRules, AnInterruptLeavesWholeSamples) {
   const RenderResult result = render(
       satin_scene(), samples(1 << 30), film, [&](const RenderState& state) { later = state.samples >= 8; }, &later);
   EXPECT_EQ(result.reason, StopReason::interrupted);
-  EXPECT_GE(result.samples, 8);
+  EXPECT_GE(result.samples, 16);
   for (const FilmPixel& pixel : film.pixels) EXPECT_GE(pixel.samples, std::uint32_t(result.samples));
 }
 
@@ -132,9 +131,9 @@ TEST(RenderedLayers, AddUpToTheBeauty) {
   for (size_t i = 0; i < film.pixels.size(); ++i) {
     const LayerPixel& l = film.layers[i];
     const Color sum = l.surface[0] + l.surface[1] + l.volume[0] + l.volume[1] + l.indirect + l.backdrop;
-    Color beauty(0);
-    for (const Color& c : film.pixels[i].beauty) beauty += c;
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], beauty[c], 1e-5f * (1 + beauty[c])) << i;
+    Vec3d beauty(0);
+    for (const Vec3d& c : film.pixels[i].beauty) beauty += c;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(sum[c]), beauty[c], 1e-5 * (1 + beauty[c])) << i;
     indirect += double(mean_component(l.indirect));
     if (l.hits == film.pixels[i].samples) through_gaps += double(mean_component(l.backdrop));
     EXPECT_LE(l.hits, film.pixels[i].samples);

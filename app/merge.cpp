@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "console.h"
+#include "exit_code.h"
+#include "picture_report.h"
+#include "render.h"
+#include "render/checkpoint.h"
+#include "render/exposure.h"
+
+namespace sateen::app {
+
+int run_merge(const std::vector<std::string>& words) {
+  std::vector<std::string> inputs, outputs;
+  std::string checkpoint;
+  Command command("merge", "Joins renders of the same picture over different ranges of samples into one.",
+                  "CHECKPOINT CHECKPOINT... -o FILE");
+  command.arguments("CHECKPOINT", inputs, 1, 100000,
+                    "of render --samples-from N --spp M --checkpoint FILE, in any order");
+  command.group("Output");
+  command.texts("-o,--output", "FILE", outputs, "repeatable; the extension picks the format: exr, png, jpg, tif");
+  command.text("--checkpoint", "FILE", checkpoint, "keeps the joined sums, to merge or go on with");
+  command.flag("--json", voice.json, "prints what was done as JSON, and nothing else, on standard output");
+  command.paragraph(
+      "The result has the bits of one render of all samples; only the layers beside the beauty are added up as "
+      "floats and agree to their roundings. Ranges must follow on each other. The scene is read as the first command "
+      "line named it, from the same folder.");
+  command.example("sateen render -s 128 -o a.png --checkpoint a.checkpoint", "samples 0 to 127, here");
+  command.example("sateen render -s 128 --samples-from 128 -o b.png --checkpoint b.checkpoint",
+                  "128 to 255, elsewhere");
+  command.example("sateen merge a.checkpoint b.checkpoint -o both.exr", "one picture of 256 samples");
+  if (!command.parse(words)) return done;
+  if (outputs.empty() && checkpoint.empty())
+    throw InputError("merge has nothing to write", "add -o FILE.exr or --checkpoint FILE");
+  for (const std::string& output : outputs) check_picture_path(output);
+
+  const Checkpoint sum = merge_checkpoints({inputs.begin(), inputs.end()});
+  RenderFlags flags;
+  read_render_flags(sum.words, flags);
+  PictureFlags& p = flags.picture;
+  p.outputs = outputs;
+  const ColorManager colors(p.ocio, p.working);
+  p.display = settle_display(p.display, colors);
+  SceneReport report;
+  Scene scene = assemble_scene(p.scene, colors, report);
+  report.metered_ev = metered_towards(scene.environment, p.scene.camera.azimuth_deg, p.scene.environment_ev);
+  PictureJob job = make_job(p, report, scene, colors, "merge " + shell_line(words));
+  job.render.stop = {};
+  job.render.stop.spp = sum.course.samples;
+  job.first_sample = int(sum.film.first_sample);
+  check_same_job(inputs[0], sum.facts, sampling_facts(job, report));
+
+  RenderResult result;
+  result.samples = sum.course.samples;
+  result.error = picture_error(sum.film);
+  result.deviation = deviation_of_share(sum.film);
+  result.seconds = result.total_seconds = sum.course.seconds;
+  result.cpu_seconds = result.total_cpu_seconds = sum.course.cpu_seconds;
+  result.rays = sum.course.rays;
+  PictureContent content{
+      &sum.film,   job.render.crop, sum.film.layers.empty() ? std::vector<std::string>() : job.layers,
+      job.display, job.exposure_ev, picture_attributes(job, report, result)};
+  std::vector<WrittenPicture> written;
+  for (const std::string& output : outputs) written.push_back(write_picture(output, content, colors));
+  if (!checkpoint.empty()) write_checkpoint(checkpoint, sum);
+  for (const WrittenPicture& file : written) print_written(job, file);
+  print_result_line(job, result);
+  if (voice.json) {
+    JsonWriter w;
+    w.open_object();
+    write_job(w, p, job, report);
+    write_result(w, result, written);
+    print_result(w.member("exit_code", int(done)).close().text());
+  }
+  return done;
+}
+
+}  // namespace sateen::app

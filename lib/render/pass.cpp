@@ -1,0 +1,104 @@
+#include "render/pass.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
+
+#include "base/parallel.h"
+
+namespace sateen {
+
+namespace {
+
+constexpr int tile_size = 32;  // the unit of work; does not depend on the number of threads
+
+void add_layers(LayerPixel& layer, const CameraSample& s, const AlbedoMaps& albedo) {
+  for (int family = 0; family < 2; ++family) {
+    layer.surface[family] += s.direct.surface[family];
+    layer.volume[family] += s.direct.volume[family];
+  }
+  layer.indirect += s.indirect;
+  layer.backdrop += s.backdrop;
+  if (!s.hit) return;
+  layer.albedo += look_up(s.back ? albedo.back : albedo.front, s.wo);
+  layer.normal += s.normal;
+  layer.position += s.position;
+  layer.warp += s.warp;
+  layer.uv += s.uv;
+  ++layer.hits;
+}
+
+/// Brings the pixels from x0 to x1 of row y to the samples that `until` says, in batches that run on from pixel to
+/// pixel; returns how many were added. A sample has the same bits in any batch, so it does not matter where they end.
+template <class Until>
+std::uint64_t add_row(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film, int y,
+                      int x0, int x1, const Until& until, PathScratch& scratch) {
+  std::array<SampleId, batch_size> ids;
+  std::array<CameraSample, batch_size> samples;
+  size_t waiting = 0;
+  std::uint64_t added = 0;
+  const auto trace = [&] {
+    trace_samples(scene, settings.light, settings.seed, {ids.data(), waiting}, scratch, samples.data());
+    for (size_t k = 0; k < waiting; ++k) {
+      const size_t i = size_t(y) * size_t(film.width) + size_t(ids[k].x);
+      add_sample(film.pixels[i], samples[k].total(), samples[k].alpha, film.grain);
+      if (!film.layers.empty()) add_layers(film.layers[i], samples[k], albedo);
+    }
+    added += waiting;
+    waiting = 0;
+  };
+  for (int x = x0; x < x1; ++x) {
+    const size_t i = size_t(y) * size_t(film.width) + size_t(x);
+    for (std::uint64_t n = film.pixels[i].samples, end = until(i); n < end; ++n) {
+      const std::uint32_t number = film.first_sample + std::uint32_t(n);
+      ids[waiting++] = {x, y, int(number % replicates), number / replicates};
+      if (waiting == ids.size()) trace();
+    }
+  }
+  if (waiting > 0) trace();
+  return added;
+}
+
+}  // namespace
+
+bool render_pass(const Scene& scene, const RenderSettings& settings, const AlbedoMaps& albedo, Film& film,
+                 Course& course, int samples, const std::function<bool()>& stop,
+                 const std::function<void(double)>& tell) {
+  const Crop w = clipped(settings.crop, film.width, film.height);
+  const int across = (w.x1 - w.x0 + tile_size - 1) / tile_size, down = (w.y1 - w.y0 + tile_size - 1) / tile_size;
+  const auto until = [&](size_t i) {
+    return std::uint64_t(part_of_target(course.targets[i], samples, course.barrier));
+  };
+  std::uint64_t wanted = 0, added = 0;
+  for (size_t i = 0; i < film.pixels.size(); ++i)
+    if (until(i) > film.pixels[i].samples) wanted += until(i) - film.pixels[i].samples;
+  std::mutex merging;
+  std::atomic<bool> whole = true;
+  parallel_for(across * down, settings.threads, [&](int tile) {
+    // Scratch is large and reused; nothing of it outlives a sample but the counts.
+    static thread_local std::unique_ptr<PathScratch> scratch = std::make_unique<PathScratch>();
+    scratch->counts = {};
+    std::uint64_t here = 0;
+    const int x0 = w.x0 + tile % across * tile_size, y0 = w.y0 + tile / across * tile_size;
+    const int x1 = std::min(x0 + tile_size, w.x1), y1 = std::min(y0 + tile_size, w.y1);
+    for (int y = y0; y < y1; ++y) {
+      // Between rows, not tiles: late passes put hundreds of samples into a pixel, and a signal wants to be heard.
+      if (stop()) {
+        whole = false;
+        break;
+      }
+      here += add_row(scene, settings, albedo, film, y, x0, x1, until, *scratch);
+    }
+    const std::lock_guard lock(merging);
+    course.rays.camera += scratch->counts.camera;
+    course.rays.shadow += scratch->counts.shadow;
+    course.rays.bounce += scratch->counts.bounce;
+    course.rays.non_finite += scratch->counts.non_finite;
+    added += here;
+    tell(wanted > 0 ? double(added) / double(wanted) : 1);
+  });
+  return whole;
+}
+
+}  // namespace sateen
