@@ -35,7 +35,7 @@ TEST(Sobol, EveryAlignedBlockOfAPowerOfTwoIsANetInBaseTwo) {
 
 TEST(Sobol, ABatchDrawsTheNumbersThatItsSamplesDrawAlone) {
   std::vector<SampleId> ids;
-  for (int k = 0; k < batch_size; ++k) ids.push_back({17 * k - 40, 1 << k, k % 5, std::uint32_t(k * k * 12345)});
+  for (int k = 0; k < batch_size; ++k) ids.push_back({17 * k - 40, k * k * k, k % 5, std::uint32_t(k * k * 12345)});
   for (size_t count = 1; count <= ids.size(); ++count) {
     const SequenceBatch batch = pixel_sequences(77, {ids.data(), count});
     ASSERT_EQ(batch.count, int(count));
