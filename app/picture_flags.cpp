@@ -106,13 +106,13 @@ void add_quality(Command& c, PictureFlags& f) {
   StopRules& stop = f.render.stop;
   c.group("Quality (whichever is met first stops)");
   c.integer("-s,--spp", "N", stop.spp, 1, 1 << 30,
-            "samples a pixel, with --adaptive their mean (default: 128 when no other rule is given)");
+            "samples a pixel, with --adaptive their mean (default: 64, adaptive, when no other rule is given)");
   c.number("--error", "E", stop.error, 1e-6, 100,
            "relative error of the picture, such as 0.02; its upper bound counts");
   c.custom(
       "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
       "wall clock for rendering: 30, 30s, 2m, 1h30m");
-  c.flag("--adaptive", f.adaptive, "samples go where the error is (default with --error or --time)");
+  c.flag("--adaptive", f.adaptive, "samples go where the error is (default but with --spp alone)");
   c.integer("--seed", "N", f.seed, 0, 0x7fffffff, "another seed is another noise (default: 1)");
   c.integer("-t,--threads", "N", f.render.threads, 0, 4096, "0: all that this process may use (default)");
   c.text("--strategy", "NAME", f.strategy,
@@ -200,8 +200,9 @@ void add_picture_flags(Command& command, PictureFlags& flags) {
 void settle_picture_flags(const Command& command, PictureFlags& f, int default_spp) {
   voice.verbosity = f.quiet ? Verbosity::quiet : f.verbose ? Verbosity::detailed : Verbosity::normal;
   StopRules& stop = f.render.stop;
-  if (stop.spp == 0 && stop.error == 0 && stop.seconds == 0) stop.spp = default_spp;
-  f.render.adaptive = command.given("--adaptive") ? f.adaptive : stop.error > 0 || stop.seconds > 0;
+  const bool no_rule = stop.spp == 0 && stop.error == 0 && stop.seconds == 0;
+  if (no_rule) stop.spp = default_spp;
+  f.render.adaptive = command.given("--adaptive") ? f.adaptive : no_rule || stop.error > 0 || stop.seconds > 0;
   f.render.seed = std::uint32_t(f.seed);
   if (f.strategy != "auto") f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
