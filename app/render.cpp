@@ -135,6 +135,13 @@ int run_render(const std::vector<std::string>& words) {
     check_picture_path(output, !flags.dry_run);
     if (!names.insert(output).second) throw InputError(fmt::format("--output {} is given twice", output));
   }
+  if (const auto folder = std::filesystem::path(all.checkpoint).parent_path(); !folder.empty() && !flags.dry_run) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+      throw OperationError(
+          fmt::format("{} cannot be made ({}); nothing was rendered", folder.string(), error.message()));
+  }
   Checkpoint begun;
   if (!all.resume.empty()) {
     begun = read_checkpoint(all.resume);

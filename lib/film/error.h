@@ -17,8 +17,8 @@ PictureError picture_error(const Film& film);
 /// eight neighbours. Four replicates know a variance with 3 degrees of freedom, this knows it with about 11.
 std::vector<Color> pooled_variances(const Film& film);
 
-/// A pixel's 95 % interval is its value +- this times the root of its pooled variance: Student's t at 11 degrees of
-/// freedom. Measured coverage: docs/error.md.
+/// A pixel's 95 % interval is its value +- this times the root of its pooled variance. Student's t at 11 degrees of
+/// freedom is 2.2 and covered 96 % and more of real pictures; this covers 95 to 96 % in 26 scenes (docs/error.md).
 inline constexpr double interval_factor = 2.1;
 
 /// The relative deviation that `share` of the pixels keep within: root mean square over channels, relative as in E.

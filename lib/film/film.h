@@ -10,7 +10,7 @@ namespace sateen {
 
 /// Independent randomised replicates of the picture: sample i of a pixel belongs to replicate i mod this. Their
 /// scatter is the error. Measured on seven scenes at 32 and 128 samples a pixel against one sequence, squared error:
-/// 4 replicates cost 1.28 and 1.14 times, 8 1.52 and 1.30, 16 1.83 and 1.46. What 8 and 16 know better about a single
+/// 4 replicates cost 1.31 and 1.14 times, 8 1.53 and 1.30, 16 1.84 and 1.46. What 8 and 16 know better about a single
 /// pixel, four know from its neighbours as well (film/error.h).
 inline constexpr int replicates = 4;
 

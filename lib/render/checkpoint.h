@@ -16,7 +16,7 @@ struct Checkpoint {
   Course course;
 };
 
-/// Whole or not at all. About 130 bytes a pixel, with layers 260.
+/// Whole or not at all. About 120 bytes a pixel, with layers 250.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 /// InputError (unreadable) where the file is missing, damaged, or no checkpoint of this version.

@@ -9,12 +9,12 @@ namespace sateen {
 
 namespace {
 
-// Over looks, maps and meshes (docs/error.md) E falls about as n^-0.575, give or take 0.04.
-constexpr double usual_slope = -0.575, usual_deviation = 0.04;
+// Over looks, maps and meshes (docs/error.md) E falls about as n^-0.575, give or take 0.045.
+constexpr double usual_slope = -0.575, usual_deviation = 0.045;
 // Of log E at one barrier, beside what all barriers share: they add to the same samples.
-constexpr double point_deviation = 0.025;
+constexpr double point_deviation = 0.03;
 // Cost of a sample may change by this share, from caches, clocks and where samples go.
-constexpr double cost_deviation = 0.05;
+constexpr double cost_deviation = 0.07;
 constexpr double two_sided_90 = 1.645;
 
 /// Seconds for one more mean sample.

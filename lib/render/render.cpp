@@ -95,8 +95,8 @@ struct Run {
       course.past.push_back({double(course.samples), useful_samples(film), state.error.error, state.error.high,
                              course.seconds, course.cpu_seconds});
     coming = forecast(course.past, settings.stop, seconds_before);
-    // The promise wants two looks at how samples are dealt out, and about 2 % of the work.
-    if (!course.promise.made && coming.made && course.samples >= 3 * least_samples &&
+    // The promise wants three looks at how samples are dealt out, and about 2 % of the work.
+    if (!course.promise.made && coming.made && course.samples >= 4 * least_samples &&
         course.samples >= 0.02 * coming.samples.value)
       course.promise = coming;
     state.promise = course.promise;
