@@ -20,12 +20,12 @@ figure { margin: 22px 0; }
 figcaption { margin-top: 8px; max-width: 84ch; }
 figure > img { display: block; width: 100%; border-radius: 6px; border: 1px solid var(--line); background: #fff; }
 .scroll { overflow-x: auto; margin: 16px 0; }
-table { border-collapse: collapse; font-size: 14px; font-variant-numeric: tabular-nums; background: var(--card);
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; background: var(--card);
   border: 1px solid var(--line); border-radius: 6px; }
-th, td { padding: 5px 11px; text-align: left; white-space: nowrap; border-bottom: 1px solid var(--line); }
+th, td { padding: 5px 9px; text-align: left; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--quiet); }
 tr:last-child td { border-bottom: 0; }
-td.number, th.number { text-align: right; }
+td.number, th.number { text-align: right; white-space: nowrap; }
 td.pass { color: var(--good); font-weight: 700; }
 td.missed { color: var(--bad); font-weight: 700; }
 .slider { position: relative; margin: 0; overflow: hidden; border-radius: 6px; border: 1px solid var(--line);

@@ -77,8 +77,12 @@ Axes axes_of(const Plot& plot) {
     for (const PlotPoint& p : series.points) {
       xs.push_back(p.x);
       ys.push_back(p.y);
-      if (p.low < p.high)
-        for (const double end : {p.low, p.high}) (plot.rows.empty() ? ys : xs).push_back(end);
+      if (!(p.low < p.high)) continue;
+      // The ends of an interval that is hardly one shall not press all points into a line: they run out of the frame.
+      const bool rows = !plot.rows.empty(), logarithmic = rows ? plot.log_x : plot.log_y;
+      const double middle = rows ? p.x : p.y;
+      for (const double end : {p.low, p.high})
+        (rows ? xs : ys).push_back(logarithmic ? std::clamp(end, middle / 4, middle * 4) : end);
     }
   if (plot.guide_x > 0) xs.push_back(plot.guide_x);
   Axes axes{axis_for(xs, plot.log_x), axis_for(ys, plot.log_y)};

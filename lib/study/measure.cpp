@@ -48,22 +48,18 @@ double student_t(int degrees) {
   return 1.96 + 2.5 / degrees;
 }
 
-Interval mean_interval(const std::vector<double>& values) {
-  const double n = double(values.size());
-  double sum = 0, scatter = 0;
-  for (const double v : values) sum += v;
-  const double mean = sum / n;
-  for (const double v : values) scatter += (v - mean) * (v - mean);
-  if (values.size() < 2) return {mean, mean, mean};
-  const double half = student_t(int(values.size()) - 1) * std::sqrt(scatter / (n - 1) / n);
-  return {mean, mean - half, mean + half};
-}
-
-Interval geometric_interval(const std::vector<double>& values) {
-  std::vector<double> logs;
-  for (const double v : values) logs.push_back(std::log(v));
-  const Interval of_logs = mean_interval(logs);
-  return {std::exp(of_logs.value), std::exp(of_logs.low), std::exp(of_logs.high)};
+Interval jackknife_interval(int count, const std::function<double(int without)>& log_value) {
+  const double value = log_value(0);
+  if (count < 2) return {std::exp(value), std::exp(value), std::exp(value)};
+  std::vector<double> left;
+  double mean = 0, scatter = 0;
+  for (int k = 1; k <= count; ++k) {
+    left.push_back(log_value(k));
+    mean += left.back() / count;
+  }
+  for (const double v : left) scatter += (v - mean) * (v - mean);
+  const double half = student_t(count - 1) * std::sqrt(scatter * (count - 1) / count);
+  return {std::exp(value), std::exp(value - half), std::exp(value + half)};
 }
 
 }  // namespace sateen

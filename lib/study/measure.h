@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "film/film.h"
@@ -30,10 +31,10 @@ struct Interval {
 /// 97.5 % point of Student's t. `degrees` at least 1.
 double student_t(int degrees);
 
-/// Mean of independent values by Student's t; one value: low and high are the value.
-Interval mean_interval(const std::vector<double>& values);
-
-/// The same of logarithms: geometric mean. Values must be positive; others make the interval NaN.
-Interval geometric_interval(const std::vector<double>& values);
+/// A positive quantity that comes out of `count` independent repetitions together, such as a ratio of mean errors.
+/// `log_value(k)` is its logarithm without repetition k, from 1; 0 leaves none out. The interval is the jackknife's with
+/// Student's t, in logarithms: means stay means, so that a rare bright sample counts as it should. One repetition: low
+/// and high are the value.
+Interval jackknife_interval(int count, const std::function<double(int without)>& log_value);
 
 }  // namespace sateen

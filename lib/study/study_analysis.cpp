@@ -9,12 +9,6 @@
 namespace sateen {
 
 namespace {
-const StudyRun* find_run(const StudyResult& result, int scene, Strategy strategy, int samples, int seed) {
-  for (const StudyRun& run : result.runs)
-    if (run.scene == scene && run.strategy == strategy && run.samples == samples && run.seed == seed) return &run;
-  return nullptr;
-}
-
 std::set<int> measured_samples(const StudyResult& result, int scene, Strategy strategy) {
   std::set<int> all;
   for (const StudyRun& run : result.runs)
@@ -22,13 +16,14 @@ std::set<int> measured_samples(const StudyResult& result, int scene, Strategy st
   return all;
 }
 
-Ratio ratio_of(const std::vector<double>& above, const std::vector<double>& below) {
-  Ratio ratio;
-  if (above.empty() || above.size() != below.size()) return ratio;
-  for (size_t i = 0; i < above.size(); ++i) ratio.by_seed.push_back(above[i] / below[i]);
-  ratio.known = true;
-  ratio.interval = geometric_interval(ratio.by_seed);
-  return ratio;
+// `mse` gives above and below without a seed; 0 where one was not measured.
+Ratio ratio_of(int seeds, const std::function<std::pair<double, double>(int without)>& mse) {
+  const auto [above, below] = mse(0);
+  if (!(above > 0) || !(below > 0)) return {};
+  return {true, jackknife_interval(seeds, [&](int without) {
+            const auto [top, bottom] = mse(without);
+            return std::log(top / bottom);
+          })};
 }
 }  // namespace
 
@@ -39,16 +34,25 @@ double value_of(const PictureMse& mse, Measure measure) {
 std::vector<CurvePoint> study_curve(const StudyResult& result, int scene, Strategy strategy, Measure measure) {
   std::vector<CurvePoint> curve;
   for (const int samples : measured_samples(result, scene, strategy)) {
-    std::vector<double> values;
     double cpu = 0;
+    int count = 0;
     for (const StudyRun& run : result.runs)
-      if (run.scene == scene && run.strategy == strategy && run.samples == samples) {
-        values.push_back(value_of(run.mse, measure));
-        cpu += run.cpu_seconds;
-      }
-    curve.push_back({samples, cpu / double(values.size()), geometric_interval(values)});
+      if (run.scene == scene && run.strategy == strategy && run.samples == samples) cpu += run.cpu_seconds, ++count;
+    curve.push_back({samples, cpu / count, jackknife_interval(result.settings.seeds, [&](int without) {
+                       return std::log(mse_at_samples(result, scene, strategy, samples, measure, without));
+                     })});
   }
   return curve;
+}
+
+double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, int samples, Measure measure,
+                      int without) {
+  double sum = 0;
+  int count = 0;
+  for (const StudyRun& run : result.runs)
+    if (run.scene == scene && run.strategy == strategy && run.samples == samples && run.seed != without)
+      sum += value_of(run.mse, measure), ++count;
+  return count > 0 ? sum / count : 0;
 }
 
 double sample_price(const StudyResult& result, int scene, Strategy strategy) {
@@ -61,11 +65,11 @@ double sample_price(const StudyResult& result, int scene, Strategy strategy) {
   return n % 2 == 1 ? prices[n / 2] : (prices[n / 2 - 1] + prices[n / 2]) / 2;
 }
 
-std::vector<double> mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds,
-                                Measure measure) {
+double mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds, Measure measure,
+                   int without) {
   const double price = sample_price(result, scene, strategy);
   const std::set<int> numbers = measured_samples(result, scene, strategy);
-  if (price <= 0 || numbers.size() < 2) return {};
+  if (price <= 0 || numbers.size() < 2) return 0;
   // The two measured numbers about the samples that the time buys; a little beyond the last is still told by them.
   const double wanted = cpu_seconds / price;
   auto upper = numbers.lower_bound(int(std::ceil(wanted)));
@@ -73,15 +77,9 @@ std::vector<double> mse_at_time(const StudyResult& result, int scene, Strategy s
   if (upper == numbers.begin()) ++upper;
   const int high = *upper, low = *std::prev(upper);
   const double share = std::log(wanted / low) / std::log(double(high) / low);
-  if (share < -0.5 || share > 1.5) return {};
-  std::vector<double> values;
-  for (int seed = 1; seed <= result.settings.seeds; ++seed) {
-    const StudyRun *a = find_run(result, scene, strategy, low, seed), *b = find_run(result, scene, strategy, high, seed);
-    if (!a || !b) return {};
-    values.push_back(std::exp((1 - share) * std::log(value_of(a->mse, measure)) +
-                              share * std::log(value_of(b->mse, measure))));
-  }
-  return values;
+  if (share < -0.5 || share > 1.5) return 0;
+  return std::exp((1 - share) * std::log(mse_at_samples(result, scene, strategy, low, measure, without)) +
+                  share * std::log(mse_at_samples(result, scene, strategy, high, measure, without)));
 }
 
 double common_time(const StudyResult& result, int scene) {
@@ -90,20 +88,18 @@ double common_time(const StudyResult& result, int scene) {
 
 Ratio equal_time_ratio(const StudyResult& result, int scene, Strategy above, Strategy below, Measure measure) {
   const double time = common_time(result, scene);
-  return ratio_of(mse_at_time(result, scene, above, time, measure), mse_at_time(result, scene, below, time, measure));
+  return ratio_of(result.settings.seeds, [&](int without) {
+    return std::pair(mse_at_time(result, scene, above, time, measure, without),
+                     mse_at_time(result, scene, below, time, measure, without));
+  });
 }
 
 Ratio samples_ratio(const StudyResult& result, int scene, Strategy above, int above_samples, Strategy below,
                     int below_samples, Measure measure) {
-  std::vector<double> top, bottom;
-  for (int seed = 1; seed <= result.settings.seeds; ++seed) {
-    const StudyRun* a = find_run(result, scene, above, above_samples, seed);
-    const StudyRun* b = find_run(result, scene, below, below_samples, seed);
-    if (!a || !b) return {};
-    top.push_back(value_of(a->mse, measure));
-    bottom.push_back(value_of(b->mse, measure));
-  }
-  return ratio_of(top, bottom);
+  return ratio_of(result.settings.seeds, [&](int without) {
+    return std::pair(mse_at_samples(result, scene, above, above_samples, measure, without),
+                     mse_at_samples(result, scene, below, below_samples, measure, without));
+  });
 }
 
 Winner scene_winner(const StudyResult& result, int scene, Measure measure) {
@@ -111,8 +107,8 @@ Winner scene_winner(const StudyResult& result, int scene, Measure measure) {
   const double time = common_time(result, scene);
   for (const std::string& name : strategy_names()) {
     const Strategy strategy = strategy_from_name(name);
-    const std::vector<double> values = mse_at_time(result, scene, strategy, time, measure);
-    if (!values.empty()) order.emplace_back(geometric_interval(values).value, strategy);
+    const double mse = mse_at_time(result, scene, strategy, time, measure);
+    if (mse > 0) order.emplace_back(mse, strategy);
   }
   std::sort(order.begin(), order.end());
   Winner winner;
@@ -128,20 +124,23 @@ std::vector<Bar> study_bars(const StudyResult& result) {
   std::vector<Bar> bars;
   const std::string ours = strategy_name(result.ours);
   const auto equal_time = [&](Strategy below, const std::string& text, double limit) {
-    // Every seed has its own geometric mean over the scenes: the interval holds what the seeds do, not the choice of
-    // scenes.
-    std::vector<double> by_seed(size_t(result.settings.seeds), 0.0);
-    int count = 0;
-    for (int i = 0; i < int(result.scenes.size()); ++i) {
-      if (!result.scenes[size_t(i)].all_strategies || !result.scenes[size_t(i)].finished) continue;
-      const Ratio ratio = equal_time_ratio(result, i, result.ours, below, Measure::relative);
-      if (!ratio.known) continue;
-      ++count;
-      for (size_t k = 0; k < by_seed.size(); ++k) by_seed[k] += std::log(ratio.by_seed[k]);
-    }
+    std::vector<int> scenes;
+    for (int i = 0; i < int(result.scenes.size()); ++i)
+      if (result.scenes[size_t(i)].all_strategies && result.scenes[size_t(i)].finished &&
+          mse_at_time(result, i, below, common_time(result, i), Measure::relative) > 0)
+        scenes.push_back(i);
+    const int count = int(scenes.size());
     if (count == 0) return;
-    for (double& v : by_seed) v = std::exp(v / count);
-    const Interval found = geometric_interval(by_seed);
+    // The interval holds what the seeds do, not the choice of scenes.
+    const Interval found = jackknife_interval(result.settings.seeds, [&](int without) {
+      double sum = 0;
+      for (const int i : scenes) {
+        const double time = common_time(result, i);
+        sum += std::log(mse_at_time(result, i, result.ours, time, Measure::relative, without) /
+                        mse_at_time(result, i, below, time, Measure::relative, without));
+      }
+      return sum / count;
+    });
     bars.push_back({fmt::format("{} over {}, equal CPU time, geometric mean of {} scene{}", ours, text, count,
                                 count == 1 ? "" : "s"),
                     limit, found, found.value <= limit});

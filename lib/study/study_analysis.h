@@ -21,19 +21,22 @@ std::vector<CurvePoint> study_curve(const StudyResult& result, int scene, Strate
 /// CPU-seconds a sample: median over all runs of the strategy in the scene; 0 where there are none.
 double sample_price(const StudyResult& result, int scene, Strategy strategy);
 
-/// MSE of each seed at a CPU time, by the straight line in logarithms between the two measured sample numbers about
-/// it. Empty where the strategy was not measured there.
-std::vector<double> mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds,
-                                Measure measure);
+/// MSE at a number of samples: mean over the seeds, but for seed `without`. 0 where it was not measured.
+double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, int samples, Measure measure,
+                      int without = 0);
+
+/// MSE at a CPU time, by the straight line in logarithms between the two measured sample numbers about it. 0 where the
+/// strategy was not measured there.
+double mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds, Measure measure,
+                   int without = 0);
 
 /// The common CPU time of a scene: that of the default strategy at StudySettings::samples.
 double common_time(const StudyResult& result, int scene);
 
-/// MSE of `above` over that of `below` at equal CPU time, by seed; the interval is over the seeds.
+/// MSE of `above` over that of `below` at equal CPU time; the interval is over the seeds.
 struct Ratio {
   bool known = false;
-  std::vector<double> by_seed;
-  Interval interval;
+  Interval interval{};
 };
 Ratio equal_time_ratio(const StudyResult& result, int scene, Strategy above, Strategy below, Measure measure);
 /// The same at numbers of samples, which may differ.
@@ -67,5 +70,8 @@ struct Claim {
   std::string why{};  ///< where one fails: what in the scene makes it so
 };
 std::vector<Claim> study_claims(const StudyResult& result);
+
+/// Why claims fail: every reason once, with the scenes and samplers that it holds for.
+std::vector<std::string> claim_reasons(const StudyResult& result);
 
 }  // namespace sateen

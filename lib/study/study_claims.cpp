@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/plot.h"
@@ -28,7 +29,7 @@ std::string reason(const StudyResult& result, const Claim& claim) {
   if (!claim.beats_four) {
     const double slope = slope_of(result, claim.scene, Strategy::uniform);
     if (slope < -1.1)
-      parts.push_back(fmt::format("uniform's MSE falls as N^{:.2f}, so 4 times the samples divide it by {:.1f} and not 4",
+      parts.push_back(fmt::format("uniform's MSE falls as N^{:.1f} here, so 4 times the samples divide it by {:.0f} and not 4",
                                   slope, std::pow(4.0, -slope)));
   }
   if (claim.sampler == Strategy::talk && scene.light_share >= 0.1)
@@ -64,6 +65,24 @@ std::vector<Claim> study_claims(const StudyResult& result) {
     }
   }
   return claims;
+}
+
+std::vector<std::string> claim_reasons(const StudyResult& result) {
+  std::vector<std::pair<std::string, std::string>> found;  // reason, where
+  for (const Claim& claim : study_claims(result)) {
+    if (claim.why.empty()) continue;
+    const std::string where =
+        fmt::format("{} ({})", result.scenes[size_t(claim.scene)].label(), strategy_name(claim.sampler));
+    const auto known =
+        std::find_if(found.begin(), found.end(), [&](const auto& each) { return each.first == claim.why; });
+    if (known == found.end())
+      found.emplace_back(claim.why, where);
+    else
+      known->second += "; " + where;
+  }
+  std::vector<std::string> all;
+  for (const auto& [why, where] : found) all.push_back(where + ": " + why);
+  return all;
 }
 
 }  // namespace sateen

@@ -80,10 +80,7 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
   for (const NamedPlot& plot : plots)
     if (plot.name != "equal_time") page.plot(plot.sheet, plot.caption);
   page.table(claim_table(result));
-  for (const Claim& claim : study_claims(result))
-    if (!claim.why.empty())
-      page.note(fmt::format("{}, {}: {}.", result.scenes[size_t(claim.scene)].label(), strategy_name(claim.sampler),
-                            claim.why));
+  for (const std::string& each : claim_reasons(result)) page.note(each + ".");
 
   page.section("How it was measured");
   page.paragraph(fmt::format(

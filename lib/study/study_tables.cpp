@@ -14,6 +14,8 @@ bool is_compared(const StudyScene& scene) {
 }  // namespace
 
 std::string interval_text(const Interval& i) {
+  constexpr double hopeless = 1e4;
+  if (i.high > hopeless * i.low) return number_text(i.value) + " (rests on rare samples)";
   return fmt::format("{} ({} to {})", number_text(i.value), number_text(i.low), number_text(i.high));
 }
 
@@ -37,8 +39,7 @@ Table bar_table(const StudyResult& result) {
 }
 
 Table claim_table(const StudyResult& result) {
-  Table table{{"scene", "sampler", "samples", "MSE over uniform's", "at most 0.25", "over uniform's with 4 x samples",
-               "below 1"},
+  Table table{{"scene", "sampler", "N", "MSE over uniform's", "<= 0.25", "over uniform's at 4 N", "< 1"},
               {}};
   for (const Claim& claim : study_claims(result))
     table.rows.push_back({result.scenes[size_t(claim.scene)].label(), strategy_name(claim.sampler),
@@ -54,7 +55,7 @@ Table ratio_table(const StudyResult& result) {
   for (const std::string& name : strategy_names())
     if (const Strategy strategy = strategy_from_name(name); strategy != result.ours) {
       others.push_back(strategy);
-      table.head.push_back("over " + name);
+      table.head.push_back(name);
     }
   std::vector<double> logs(others.size(), 0.0);
   for (int i = 0; i < int(result.scenes.size()); ++i) {
@@ -74,7 +75,7 @@ Table ratio_table(const StudyResult& result) {
 }
 
 Table winner_table(const StudyResult& result) {
-  Table table{{"scene", "least MSE at equal time", "second", "lead beyond chance", "default over the least"}, {}};
+  Table table{{"scene", "least MSE", "second", "beyond chance", "default / least"}, {}};
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     if (!is_compared(result.scenes[size_t(i)])) continue;
     const Winner winner = scene_winner(result, i, Measure::relative);
@@ -88,7 +89,7 @@ Table winner_table(const StudyResult& result) {
 }
 
 Table reference_table(const StudyResult& result) {
-  Table table{{"scene", "samples", "relative MSE", "share of the least measured", "half of the light from"}, {}};
+  Table table{{"scene", "samples", "relative MSE", "of the least measured", "half of the light from"}, {}};
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     const StudyScene& s = result.scenes[size_t(i)];
     if (!s.finished) continue;
@@ -120,10 +121,7 @@ std::string study_text(const StudyResult& result) {
        ratio_table(result));
   part("The talk's claims, for its sampler and for the direction table", claim_table(result));
   std::string reasons;
-  for (const Claim& claim : study_claims(result))
-    if (!claim.why.empty())
-      reasons += fmt::format("{}, {}: {}\n", result.scenes[size_t(claim.scene)].label(), strategy_name(claim.sampler),
-                             claim.why);
+  for (const std::string& each : claim_reasons(result)) reasons += each + "\n";
   if (!reasons.empty()) text += "Why they fail where they do\n\n" + reasons + "\n";
   part("References", reference_table(result));
   return text;
