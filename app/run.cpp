@@ -21,6 +21,7 @@ const std::vector<Subcommand>& subcommands() {
   static const std::vector<Subcommand> all{
       {"render", "one picture of a cloth", run_render},
       {"turntable", "an orbit: frames and a sheet of them", run_turntable},
+      {"cost", "what accuracy costs in time, and what approximations give away", run_cost},
       {"study", "measures the sampling strategies against each other", run_study},
       {"look", "looks: list, check, resolve, diff, schema", run_look},
       {"lobe", "draws and prints how a look scatters light", run_lobe},

@@ -22,7 +22,7 @@ void add_sliders(Page& page, const StudyResult& result, int scene, const std::fi
     page.slider(fmt::format("{}: {}. Drag the divider; choose what is compared below it.",
                             result.scenes[size_t(scene)].label(),
                             equal_time ? "equal CPU time" : "equal number of samples"),
-                shown, 640);
+                shown, 760);
   }
 }
 
