@@ -17,7 +17,8 @@ namespace sateen::app {
 namespace {
 void describe(Command& c) {
   c.paragraph(
-      "Takes the flags of sateen render, measures that picture at a smaller size, and writes a folder: index.html with "
+      "Takes the flags of sateen render, measures that picture at a smaller size, and writes a folder: index.html "
+      "with "
       "the picture at every price, plots as SVG and PNG, cost.csv, cost.json and cost.txt. --output names the folder "
       "(default: cost); --spp is the largest number of samples of the error against time (default: 128). Stopped by "
       "Ctrl-C it writes what is finished.");
@@ -40,7 +41,8 @@ std::string folder_of(const PictureFlags& flags) {
 
 int run_cost(const std::vector<std::string>& words) {
   PictureFlags flags;
-  Command command("cost", "Tells what accuracy costs in time for your picture, and what every approximation gives away.",
+  Command command("cost",
+                  "Tells what accuracy costs in time for your picture, and what every approximation gives away.",
                   "[--look NAME] [--mesh FILE] [--env MAP] [-o FOLDER] [flags]");
   describe(command);
   add_picture_flags(command, flags);
@@ -49,11 +51,12 @@ int run_cost(const std::vector<std::string>& words) {
   settle_picture_flags(command, flags, default_spp);
   for (const char* rule : {"--error", "--time", "--crop"})
     if (command.given(rule))
-      throw InputError(fmt::format("{} is not for sateen cost, which finds out what errors and times there are", rule),
-                       "--spp sets how far it looks");
+      throw InputError(
+          fmt::format("{} is not for sateen cost, which finds out what errors and times there are", rule),
+          "--spp sets how far it looks");
   if (flags.render.stop.spp < fewest_spp)
-    throw InputError(fmt::format("--spp is {}, expected {} or more: a curve wants points", flags.render.stop.spp,
-                                 fewest_spp));
+    throw InputError(
+        fmt::format("--spp is {}, expected {} or more: a curve wants points", flags.render.stop.spp, fewest_spp));
   const std::string folder = folder_of(flags);
 
   const ColorManager colors(flags.ocio, flags.working);
@@ -75,8 +78,10 @@ int run_cost(const std::vector<std::string>& words) {
   progress.finish();
   const std::string command_line = "sateen cost " + shell_line(words);
   const std::vector<std::string> files = write_cost(folder, result, SATEEN_VERSION, command_line);
-  if (voice.json) print_result(cost_json(result, SATEEN_VERSION, command_line));
-  else print_note(cost_text(result));
+  if (voice.json)
+    print_result(cost_json(result, SATEEN_VERSION, command_line));
+  else
+    print_note(cost_text(result));
   print_note(fmt::format("wrote {} files into {}; open {}", files.size(), folder,
                          (std::filesystem::path(folder) / "index.html").string()));
   return result.interrupted ? 128 + signal_received() : int(done);

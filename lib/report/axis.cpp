@@ -31,7 +31,7 @@ std::vector<Tick> log_ticks(const Axis& axis, int most) {
     for (int m = 1; m <= 9; ++m) {
       const double value = m * std::pow(10.0, e);
       if (value < axis.low * (1 - 1e-9) || value > axis.high * (1 + 1e-9)) continue;
-      const bool labelled = m == 1 ? (e - from) % every == 0 || decades < most : (m == 2 || m == 5) && room >= 3;
+      const bool labelled = m == 1 ? (e - from) % every == 0 || decades < most : (m == 2 || m == 5) && room >= 2.2;
       if (decades > 4 && m > 1) continue;
       ticks.push_back({value, labelled ? tick_label(value) : ""});
     }

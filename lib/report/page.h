@@ -29,7 +29,7 @@ class Page {
   void paragraph(const std::string& text);
   void note(const std::string& text);  ///< smaller, quieter
   void table(const Table& table);
-  void plot(const PlotSheet& sheet, const std::string& caption);  ///< as SVG, in the page
+  void plot(const PlotSheet& sheet, const std::string& caption);  ///< as PNG, in the page
   void picture(const std::string& caption, const std::string& uri);
   /// Two of the pictures under a divider that is dragged, with buttons to choose which two. All of one size; `width`
   /// is the size on the page. At least two pictures, else InputError.

@@ -13,16 +13,16 @@ namespace sateen {
 
 /// What the price list of one scene covers.
 struct CostSettings {
-  SceneSettings scene;    ///< as it will be rendered
+  SceneSettings scene;  ///< as it will be rendered
   LightSettings light;
-  DisplaySettings display;             ///< settled
-  std::optional<float> exposure_ev;    ///< empty: metered
+  DisplaySettings display;           ///< settled
+  std::optional<float> exposure_ev;  ///< empty: metered
   std::uint32_t seed = 1;
   int threads = 0;
-  int most_samples = 128;   ///< of the error against time
-  int price_samples = 64;   ///< of every setting
-  int pixels = 160 * 90;    ///< measured on a smaller picture of about so many pixels; times are scaled to the whole
-  int seeds = 3;            ///< of the error against time
+  int most_samples = 128;  ///< of the error against time
+  int price_samples = 64;  ///< of every setting
+  int pixels = 192 * 108;  ///< measured on a smaller picture of about so many pixels; times are scaled to the whole
+  int seeds = 3;           ///< of the error against time
 };
 
 /// Error and time of whole pictures at one number of samples.
@@ -35,20 +35,20 @@ struct CostPoint {
 
 /// One setting of an approximation.
 struct Price {
-  std::string setting;        ///< "level 2"
+  std::string setting;             ///< "level 2"
   std::vector<std::string> flags;  ///< that ask for it on the command line; empty where there are none
-  double cpu_seconds = 0;     ///< of the picture as asked, at CostSettings::price_samples
-  double setup_seconds = 0;   ///< CPU-seconds before the first sample, where the setting changes them
-  double noise = 0;           ///< E as claimed, at price_samples
-  Bias bias;                  ///< against the finest setting; zero for what only changes the noise
-  Image picture;              ///< display-referred
+  double cpu_seconds = 0;          ///< of the picture as asked, at CostSettings::price_samples
+  double setup_seconds = 0;        ///< CPU-seconds before the first sample, where the setting changes them
+  double noise = 0;                ///< E as claimed, at price_samples
+  Bias bias;                       ///< against the finest setting; zero for what only changes the noise
+  Image picture;                   ///< display-referred
 };
 struct PriceList {
-  std::string name;      ///< "subdivision level"
-  bool biased = true;    ///< false: all settings converge to the same picture, and noise^2 x time decides
+  std::string name;     ///< "subdivision level"
+  bool biased = true;   ///< false: all settings converge to the same picture, and noise^2 x time decides
   bool advised = true;  ///< the qualities choose from it; not where there is no flag, or another list holds it too
   std::vector<Price> prices;  ///< cheapest first, the finest last
-  int enough = -1;       ///< the first setting that more buys nothing over
+  int enough = -1;            ///< the first setting that more buys nothing over
   std::string note;
 };
 
@@ -67,10 +67,10 @@ struct CostResult {
   CostSettings settings;
   std::vector<std::string> warnings;
   int width = 0, height = 0, level = 0, reference_samples = 0;
-  double scale = 1;             ///< pixels asked over pixels measured
+  double scale = 1;  ///< pixels asked over pixels measured
   PictureMse reference_error;
   std::vector<CostPoint> points;
-  PowerFit fit;                 ///< true E against CPU-seconds
+  PowerFit fit;  ///< true E against CPU-seconds
   std::vector<PriceList> lists;
   std::vector<std::string> fixed;  ///< approximations that this version cannot vary, one sentence each
   std::vector<Quality> qualities;

@@ -30,7 +30,8 @@ void write_price(JsonWriter& w, const Price& p, bool biased) {
 }
 
 Table csv_table(const CostResult& result) {
-  Table table{{"part", "setting", "samples", "cpu_seconds", "error", "low", "high", "claimed_or_noise", "visible"}, {}};
+  Table table{{"part", "setting", "samples", "cpu_seconds", "error", "low", "high", "claimed_or_noise", "visible"},
+              {}};
   for (const CostPoint& p : result.points)
     table.rows.push_back({"error against time", "", std::to_string(p.samples), number_text(p.cpu_seconds, 6),
                           number_text(p.true_error.value, 6), number_text(p.true_error.low, 6),
@@ -68,7 +69,9 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
   }
   w.close();
   if (result.fit.known)
-    w.member("slope", result.fit.slope).member("slope_error", result.fit.slope_error).member("factor", result.fit.factor);
+    w.member("slope", result.fit.slope)
+        .member("slope_error", result.fit.slope_error)
+        .member("factor", result.fit.factor);
   w.key("halvings").open_list();
   for (const std::string& sentence : halving_sentences(result)) w.value(sentence);
   w.close().key("prices").open_list();
@@ -85,8 +88,11 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
   for (const Quality& q : result.qualities) {
     w.key(q.name).open_object().member("target", q.target).member("reached", q.reached);
     if (q.reached)
-      w.member("flags", q.flags).member("spp", q.samples).member("noise", q.noise).member("bias", q.bias).member(
-          "cpu_seconds", q.cpu_seconds);
+      w.member("flags", q.flags)
+          .member("spp", q.samples)
+          .member("noise", q.noise)
+          .member("bias", q.bias)
+          .member("cpu_seconds", q.cpu_seconds);
     w.close();
   }
   return w.close().close().text() + "\n";
@@ -95,10 +101,10 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
 std::string cost_page(const CostResult& result, const std::filesystem::path& picture_folder) {
   const CostSettings& s = result.settings;
   const std::vector<std::string> halvings = halving_sentences(result);
-  Page page("What accuracy costs in time",
-            fmt::format("{} on {} under {}, {} x {} pixels{}", s.scene.look, s.scene.mesh,
-                        light_label(s.scene.environment), s.scene.width, s.scene.height,
-                        halvings.empty() ? "." : ". E " + halvings.back()));
+  Page page(
+      "What accuracy costs in time",
+      fmt::format("{} on {} under {}, {} x {} pixels{}", s.scene.look, s.scene.mesh, light_label(s.scene.environment),
+                  s.scene.width, s.scene.height, halvings.empty() ? "." : ". E " + halvings.back()));
   if (result.interrupted) page.paragraph("INTERRUPTED: only what was finished is here.");
   page.paragraph(
       "E is the relative error of the whole picture: sqrt of the mean over pixels and channels of (x - r)^2 / (r^2 + "
@@ -108,8 +114,9 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
   for (const NamedPlot& plot : plots)
     if (plot.name == "error_time") page.plot(plot.sheet, plot.caption);
   page.table(point_table(result));
+  const int threads = thread_count(s.threads);
   for (const std::string& sentence : halvings)
-    page.paragraph(fmt::format("{}, with {} threads.", sentence, thread_count(s.threads)));
+    page.paragraph(fmt::format("{}, with {} thread{}.", sentence, threads, threads == 1 ? "" : "s"));
   std::vector<SliderPicture> shown;
   for (size_t i = 0; i < result.ladder_pictures.size(); ++i)
     shown.push_back({result.ladder_pictures[i].first, picture_uri(picture_folder / fmt::format("n_{}.jpg", i))});
@@ -135,13 +142,17 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
   page.section("Not variable");
   for (const std::string& each : result.fixed) page.note(each + ".");
   page.section("How it was measured");
-  page.paragraph(fmt::format(
-      "On a picture of {} x {} pixels with the subdivision level of the whole one; CPU-seconds are scaled by the number "
-      "of pixels, {:.1f}. Bias is measured between pairs of pictures with two seeds: in the product of both differences "
-      "noise has no expectation. The visible difference is the largest that both pairs agree on, in 8-bit code values "
-      "of the display picture, means over 4 x 4 pixels. A setting is enough where it is below one code value and 0.1 % "
-      "or lost in noise.",
-      result.width, result.height, result.scale));
+  page.paragraph(
+      fmt::format("On a picture of {} x {} pixels with the subdivision level of the whole one; CPU-seconds are "
+                  "scaled by the number "
+                  "of pixels, {:.1f}. Bias is measured between pairs of pictures with two seeds: in the product of "
+                  "both differences "
+                  "noise has no expectation. The visible difference is the largest that both pairs agree on, in "
+                  "8-bit code values "
+                  "of the display picture, means over 4 x 4 pixels. A setting is enough where it is below one code "
+                  "value and 0.1 % "
+                  "or lost in noise.",
+                  result.width, result.height, result.scale));
   return page.html();
 }
 

@@ -81,8 +81,10 @@ Table quality_table(const CostResult& result) {
 std::vector<NamedPlot> cost_plots(const CostResult& result) {
   std::vector<NamedPlot> plots;
   if (!result.points.empty()) {
-    NamedPlot plot{"error_time", "True error against a reference, and what the program claims of itself. The frontier "
-                                 "joins, for every error, the cheapest combination of settings; bias counts there.", {}};
+    NamedPlot plot{"error_time",
+                   "True error against a reference, and what the program claims of itself. The frontier "
+                   "joins, for every error, the cheapest combination of settings; bias counts there.",
+                   {}};
     plot.sheet.title = "Error against time";
     plot.sheet.subtitle = fmt::format("{}, {} x {}; bars are 95 % intervals", result.settings.scene.look,
                                       result.settings.scene.width, result.settings.scene.height);
@@ -100,31 +102,34 @@ std::vector<NamedPlot> cost_plots(const CostResult& result) {
     if (!frontier.points.empty()) panel.series.push_back(frontier);
     for (const Quality& q : result.qualities)
       if (q.reached)
-        panel.series.push_back({q.name, {{q.cpu_seconds, std::hypot(q.noise, q.bias)}},
-                                3 + int(panel.series.size()) % 5, false});
+        panel.series.push_back(
+            {q.name, {{q.cpu_seconds, std::hypot(q.noise, q.bias)}}, 3 + int(panel.series.size()) % 5, false});
     plot.sheet.panels.push_back(panel);
     plots.push_back(std::move(plot));
   }
-  NamedPlot prices{"prices", "What a cheaper setting gives away, against what it saves. Settings whose bias is lost in "
-                             "noise are not drawn.", {}};
+  NamedPlot prices{"prices",
+                   "What a cheaper setting gives away. Where the bias is far below the noise of the "
+                   "picture that is asked for, more buys nothing.",
+                   {}};
   prices.sheet.title = "The price of approximations";
-  prices.sheet.subtitle = fmt::format("bias as E against the finest setting, noise taken out; CPU-seconds at {} samples",
-                                      result.settings.price_samples);
+  prices.sheet.subtitle =
+      fmt::format("bias as E, noise taken out; noise at {} samples", result.settings.price_samples);
   prices.sheet.columns = 3;
-  prices.sheet.panel_height = 320;
+  prices.sheet.panel_height = 240;
   for (const PriceList& list : result.lists) {
     if (!list.biased) continue;
     Plot panel;
     panel.title = list.name;
-    panel.x_label = "CPU-seconds";
-    panel.log_x = false;
-    if (prices.sheet.panels.empty()) panel.y_label = "bias as E";
-    PlotSeries bias{"bias as E", {}, 0, false}, noise{"noise E", {}, 7, false};
+    panel.x_label = "E";
+    panel.log_y = false;
+    PlotSeries bias{"bias against the finest setting", {}, 0, false}, noise{"noise", {}, 7, false};
     for (const Price& p : list.prices) {
-      bias.points.push_back({p.cpu_seconds, p.bias.error.value, p.bias.error.low, p.bias.error.high});
-      noise.points.push_back({p.cpu_seconds, p.noise});
+      const double row = double(panel.rows.size());
+      panel.rows.push_back(p.setting);
+      bias.points.push_back({p.bias.error.value, row, p.bias.error.low, p.bias.error.high});
+      noise.points.push_back({p.noise, row});
     }
-    panel.series = {bias, noise};
+    panel.series = {noise, bias};
     prices.sheet.panels.push_back(panel);
   }
   if (!prices.sheet.panels.empty()) plots.push_back(std::move(prices));

@@ -78,7 +78,8 @@ class CostMeasurement {
     if (observe_) observe_({clock_.fraction(), clock_.seconds_left(), doing});
   }
 
-  RenderResult render_film(const Scene& scene, const LightSettings& light, int samples, std::uint32_t seed, Film& film) {
+  RenderResult render_film(const Scene& scene, const LightSettings& light, int samples, std::uint32_t seed,
+                           Film& film) {
     RenderSettings settings;
     settings.light = light;
     settings.stop.spp = samples;
@@ -129,7 +130,8 @@ class CostMeasurement {
       curve.push_back({point.cpu_seconds, point.true_error.value});
     }
     result_.fit = fit_power(curve);
-    result_.ladder_pictures.emplace_back(fmt::format("reference, {} samples", result_.reference_samples), shown(truth));
+    result_.ladder_pictures.emplace_back(fmt::format("reference, {} samples", result_.reference_samples),
+                                         shown(truth));
   }
 
   Pair render_pair(const Scene& scene, const LightSettings& light) {
@@ -184,7 +186,8 @@ class CostMeasurement {
   }
 
   void measure_environment() {
-    PriceList list{"environment size", true, false, {}, -1, "the map shrunk before use; this version has no flag for it"};
+    PriceList list{
+        "environment size", true, false, {}, -1, "the map shrunk before use; this version has no flag for it"};
     std::vector<Pair> pairs;
     std::vector<std::string> names;
     const Environment whole = scene_.environment;
@@ -193,8 +196,7 @@ class CostMeasurement {
       const int width = whole.width / factor, height = whole.height / factor;
       if (width < 8 || height < 4) continue;
       tell(fmt::format("map of {} x {}", width, height));
-      if (factor > 1) scene_.environment = shrink_environment(whole, width, height);
-      else scene_.environment = whole;
+      scene_.environment = factor > 1 ? shrink_environment(whole, width, height) : whole;
       names.push_back(asked(fmt::format("{} x {}", width, height), factor == 1));
       pairs.push_back(render_pair(scene_, result_.settings.light));
     }
@@ -204,7 +206,14 @@ class CostMeasurement {
   }
 
   void measure_strategies() {
-    PriceList list{"strategy", false, true, {}, -1, "all converge to the same picture: noise squared times time decides"};
+    PriceList list{
+        "strategy",
+        false,
+        true,
+        {},
+        -1,
+        "all converge to the same picture: noise squared times time decides. Noise is as claimed, which is too "
+        "little where light is met by rare samples, as a sun is by uniform ones"};
     for (const std::string& name : strategy_names()) {
       if (clock_.stopped()) return;
       tell("strategy " + name);
@@ -227,8 +236,9 @@ class CostMeasurement {
       light.strategy = Strategy::resampled;
       light.candidates = number;
       const Pair pair = render_pair(scene_, light);
-      list.prices.push_back(price_of(asked(fmt::format("{}", number), own && number == result_.settings.light.candidates),
-                                     {"--strategy resampled", fmt::format("--candidates {}", number)}, pair, nullptr));
+      list.prices.push_back(
+          price_of(asked(fmt::format("{}", number), own && number == result_.settings.light.candidates),
+                   {"--strategy resampled", fmt::format("--candidates {}", number)}, pair, nullptr));
     }
     keep(std::move(list));
   }

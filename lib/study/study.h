@@ -19,7 +19,7 @@ struct StudySettings {
   double cpu_seconds = 600;  ///< about what the whole may take
   bool pictures = true;
   int threads = 0;
-  int picture_width = 320, picture_height = 180;
+  int picture_width = 256, picture_height = 144;
 };
 
 /// One render, measured.
@@ -38,8 +38,8 @@ struct StudyScene {
   bool all_strategies = false;  ///< measured with all of them at equal time; else `uniform`, `talk`, `table` alone
   bool ladder = false;          ///< measured at growing samples: one of the talk's figures
   int reference_samples = 0;
-  PictureMse reference_error{}; ///< Reference::own
-  double light_share = 0;       ///< half_light_share()
+  PictureMse reference_error{};  ///< Reference::own
+  double light_share = 0;        ///< half_light_share()
   bool finished = false;
 
   std::string label() const;  ///< "velvet, overcast", "velvet, overcast, 2 bounces"

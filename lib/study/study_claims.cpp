@@ -29,8 +29,9 @@ std::string reason(const StudyResult& result, const Claim& claim) {
   if (!claim.beats_four) {
     const double slope = slope_of(result, claim.scene, Strategy::uniform);
     if (slope < -1.1)
-      parts.push_back(fmt::format("uniform's MSE falls as N^{:.1f} here, so 4 times the samples divide it by {:.0f} and not 4",
-                                  slope, std::pow(4.0, -slope)));
+      parts.push_back(
+          fmt::format("uniform's MSE falls as N^{:.1f} here, so 4 times the samples divide it by {:.0f} and not 4",
+                      slope, std::pow(4.0, -slope)));
   }
   if (claim.sampler == Strategy::talk && scene.light_share >= 0.1)
     parts.push_back(
@@ -55,7 +56,8 @@ std::vector<Claim> study_claims(const StudyResult& result) {
         if (q.samples == 4 * p.samples) samples = p.samples;
     for (const Strategy sampler : {Strategy::talk, Strategy::table}) {
       const Ratio equal = samples_ratio(result, i, sampler, samples, Strategy::uniform, samples, Measure::relative);
-      const Ratio four = samples_ratio(result, i, sampler, samples, Strategy::uniform, 4 * samples, Measure::relative);
+      const Ratio four =
+          samples_ratio(result, i, sampler, samples, Strategy::uniform, 4 * samples, Measure::relative);
       if (!equal.known || !four.known) continue;
       Claim claim{i, sampler, samples, equal.interval, four.interval};
       claim.quarter = equal.interval.value <= 0.25;
@@ -81,7 +83,7 @@ std::vector<std::string> claim_reasons(const StudyResult& result) {
       known->second += "; " + where;
   }
   std::vector<std::string> all;
-  for (const auto& [why, where] : found) all.push_back(where + ": " + why);
+  for (const auto& [why, where] : found) all.push_back(fmt::format("{}. In: {}", why, where));
   return all;
 }
 
