@@ -9,7 +9,8 @@ namespace sateen {
 
 namespace {
 bool is_number(const std::string& cell) {
-  return !cell.empty() && (cell == "-" || cell[0] == '+' || cell[0] == '-' || (cell[0] >= '0' && cell[0] <= '9'));
+  const size_t first = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
+  return cell == "-" || (cell.size() > first && cell[first] >= '0' && cell[first] <= '9');
 }
 
 // A column stands to the right where all of its cells are numbers.

@@ -39,7 +39,7 @@ struct Price {
   std::vector<std::string> flags;  ///< that ask for it on the command line; empty where there are none
   double cpu_seconds = 0;          ///< of the picture as asked, at CostSettings::price_samples
   double setup_seconds = 0;        ///< CPU-seconds before the first sample, where the setting changes them
-  double noise = 0;                ///< E as claimed, at price_samples
+  double noise = 0;                ///< E at price_samples: as claimed; true where `biased` is false
   Bias bias;                       ///< against the finest setting; zero for what only changes the noise
   Image picture;                   ///< display-referred
 };

@@ -104,8 +104,8 @@ class CostMeasurement {
     result_.reference_samples = reference_factor * s.most_samples;
     render_film(scene_, s.light, result_.reference_samples, reference_seed, truth);
     if (clock_.stopped()) return;
-    const Reference reference = make_reference(truth, result_.reference_samples);
-    result_.reference_error = reference.own;
+    reference_ = make_reference(truth, result_.reference_samples);
+    result_.reference_error = reference_.own;
     std::vector<PlotPoint> curve;
     for (int samples = replicates; samples <= s.most_samples; samples *= 2) {
       tell(fmt::format("error at {} samples", samples));
@@ -116,7 +116,7 @@ class CostMeasurement {
         Film film = empty_film();
         const RenderResult done = render_film(scene_, s.light, samples, s.seed + std::uint32_t(k), film);
         if (clock_.stopped()) return;
-        squares.push_back(mse_against(film, reference).relative);
+        squares.push_back(mse_against(film, reference_).relative);
         point.cpu_seconds += done.cpu_seconds * result_.scale / s.seeds;
         point.claimed_error += done.error.error / s.seeds;
         if (k == 0) result_.ladder_pictures.emplace_back(fmt::format("{} samples", samples), shown(film));
@@ -155,6 +155,14 @@ class CostMeasurement {
       price.bias = measure_bias({pair.a, pair.b}, {fine->a, fine->b}, colors_, result_.settings.display, exposure_);
     price.picture = shown(pair.a);
     return price;
+  }
+
+  // Of settings that converge to the same picture: the true error. What they claim of themselves is too little where
+  // light is met by rare samples, as a sun is by uniform ones.
+  Price unbiased_price(const std::string& setting, std::vector<std::string> flags, const LightSettings& light) {
+    Pair pair = render_pair(scene_, light);
+    pair.noise = std::sqrt((mse_against(pair.a, reference_).relative + mse_against(pair.b, reference_).relative) / 2);
+    return price_of(setting, std::move(flags), pair, nullptr);
   }
 
   // A list is kept when it is whole.
@@ -206,39 +214,32 @@ class CostMeasurement {
   }
 
   void measure_strategies() {
-    PriceList list{
-        "strategy",
-        false,
-        true,
-        {},
-        -1,
-        "all converge to the same picture: noise squared times time decides. Noise is as claimed, which is too "
-        "little where light is met by rare samples, as a sun is by uniform ones"};
+    PriceList list{"strategy", false, true,
+                   {},         -1,    "all converge to the same picture: true error squared times time decides"};
     for (const std::string& name : strategy_names()) {
       if (clock_.stopped()) return;
       tell("strategy " + name);
       LightSettings light = result_.settings.light;
       light.strategy = strategy_from_name(name);
-      const Pair pair = render_pair(scene_, light);
-      list.prices.push_back(price_of(asked(name, light.strategy == result_.settings.light.strategy),
-                                     {"--strategy " + name}, pair, nullptr));
+      list.prices.push_back(unbiased_price(asked(name, light.strategy == result_.settings.light.strategy),
+                                           {"--strategy " + name}, light));
     }
     keep(std::move(list));
   }
 
   void measure_candidates() {
     const bool own = result_.settings.light.strategy == Strategy::resampled;
-    PriceList list{"candidates", false, false, {}, -1, "of strategy resampled; noise squared times time decides"};
+    PriceList list{"candidates", false, false,
+                   {},           -1,    "of strategy resampled; true error squared times time decides"};
     for (const int number : {1, 2, 4, 8, 16}) {
       if (clock_.stopped()) return;
       tell(fmt::format("{} candidates", number));
       LightSettings light = result_.settings.light;
       light.strategy = Strategy::resampled;
       light.candidates = number;
-      const Pair pair = render_pair(scene_, light);
       list.prices.push_back(
-          price_of(asked(fmt::format("{}", number), own && number == result_.settings.light.candidates),
-                   {"--strategy resampled", fmt::format("--candidates {}", number)}, pair, nullptr));
+          unbiased_price(asked(fmt::format("{}", number), own && number == result_.settings.light.candidates),
+                         {"--strategy resampled", fmt::format("--candidates {}", number)}, light));
     }
     keep(std::move(list));
   }
@@ -278,6 +279,7 @@ class CostMeasurement {
   const std::function<void(const StudyState&)>& observe_;
   WorkClock clock_;
   CostResult result_;
+  Reference reference_;
   SceneSettings small_;
   Scene scene_;
   float exposure_ = 0;

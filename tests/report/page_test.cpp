@@ -16,6 +16,13 @@ TEST(Table, TextColumnsAreEvenAndNumbersStandToTheRight) {
             "crepe, studio   12\n");
 }
 
+TEST(Table, FlagsAreNoNumbers) {
+  EXPECT_EQ(table_text({{"flags", "n"}, {{"--spp 8", "-1"}, {"-s 16 --level 2", "-"}}}),
+            "flags            n\n"
+            "--spp 8         -1\n"
+            "-s 16 --level 2  -\n");
+}
+
 TEST(Table, CsvQuotesWhatWouldBreakIt) {
   EXPECT_EQ(table_csv({{"a", "b"}, {{"x, \"y\"", "line\nbreak"}, {"plain", "1"}}}),
             "a,b\n\"x, \"\"y\"\"\",\"line\nbreak\"\nplain,1\n");
