@@ -57,9 +57,8 @@ void Page::table(const Table& table) {
 }
 
 void Page::plot(const PlotSheet& sheet, const std::string& caption) {
-  // Sharp on a plain screen at the page's width, and half the size of the SVG with its outlined letters.
-  constexpr double scale = 4.0 / 3;
-  picture(caption, data_uri("image/png", plot_png(sheet, scale)));
+  // At the page's width; the SVG with its outlined letters is twice as large, and lies beside most pages.
+  picture(caption, data_uri("image/png", plot_png(sheet, 1)));
 }
 
 void Page::picture(const std::string& caption, const std::string& uri) {

@@ -101,10 +101,10 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
 std::string cost_page(const CostResult& result, const std::filesystem::path& picture_folder) {
   const CostSettings& s = result.settings;
   const std::vector<std::string> halvings = halving_sentences(result);
-  Page page(
-      "What accuracy costs in time",
-      fmt::format("{} on {} under {}, {} x {} pixels{}", s.scene.look, s.scene.mesh, light_label(s.scene.environment),
-                  s.scene.width, s.scene.height, halvings.empty() ? "." : ". E " + halvings.back()));
+  Page page("What accuracy costs in time",
+            fmt::format("{} on {} under {}, {} x {} pixels{}", s.scene.look, light_label(s.scene.mesh),
+                        light_label(s.scene.environment), s.scene.width, s.scene.height,
+                        halvings.empty() ? "." : ". E " + halvings.back()));
   if (result.interrupted) page.paragraph("INTERRUPTED: only what was finished is here.");
   page.paragraph(
       "E is the relative error of the whole picture: sqrt of the mean over pixels and channels of (x - r)^2 / (r^2 + "

@@ -18,9 +18,9 @@ TEST(Table, TextColumnsAreEvenAndNumbersStandToTheRight) {
 
 TEST(Table, FlagsAreNoNumbers) {
   EXPECT_EQ(table_text({{"flags", "n"}, {{"--spp 8", "-1"}, {"-s 16 --level 2", "-"}}}),
-            "flags            n\n"
-            "--spp 8         -1\n"
-            "-s 16 --level 2  -\n");
+            "flags             n\n"
+            "--spp 8          -1\n"
+            "-s 16 --level 2   -\n");
 }
 
 TEST(Table, CsvQuotesWhatWouldBreakIt) {
