@@ -94,7 +94,7 @@ void draw_grid(cairo_t* to, const Plot& plot, const Axes& axes, const Box& b) {
   double last = -1e9;
   std::vector<Tick> along;
   for (const double value : plot.x_ticks) along.push_back({value, fmt::format("{:.4g}", value)});
-  if (along.empty()) along = axis_ticks(axes.x, std::max(2, int((b.x1 - b.x0) / 75)));
+  if (along.empty()) along = axis_ticks(axes.x, std::max(3, int((b.x1 - b.x0) / 60)));
   for (const Tick& tick : along) {
     const double x = b.x0 + axes.x.at(tick.value) * (b.x1 - b.x0);
     if (tick.label.empty()) {
