@@ -25,7 +25,7 @@ Table ratio_table(const StudyResult& result);      ///< MSE of ours over every s
 Table winner_table(const StudyResult& result);     ///< least MSE at equal time, a scene a row
 Table reference_table(const StudyResult& result);  ///< how far the references can be trusted
 
-/// "0.031 (0.028 to 0.034)"; where the ends are more than a factor of 10,000 apart, that in words.
+/// "0.0314 (0.028 to 0.034)"; where the ends are more than a factor of 10,000 apart, that in words.
 std::string interval_text(const Interval& interval);
 
 /// What was done and found, as text for a terminal.

@@ -16,7 +16,7 @@ bool is_compared(const StudyScene& scene) {
 std::string interval_text(const Interval& i) {
   constexpr double hopeless = 1e4;
   if (i.high > hopeless * i.low) return number_text(i.value) + " (rests on rare samples)";
-  return fmt::format("{} ({} to {})", number_text(i.value), number_text(i.low), number_text(i.high));
+  return fmt::format("{} ({} to {})", number_text(i.value, 4), number_text(i.low), number_text(i.high));
 }
 
 Table run_table(const StudyResult& result) {
@@ -39,8 +39,7 @@ Table bar_table(const StudyResult& result) {
 }
 
 Table claim_table(const StudyResult& result) {
-  Table table{{"scene", "sampler", "N", "MSE over uniform's", "<= 0.25", "over uniform's at 4 N", "< 1"},
-              {}};
+  Table table{{"scene", "sampler", "N", "MSE over uniform's", "<= 0.25", "over uniform's at 4 N", "< 1"}, {}};
   for (const Claim& claim : study_claims(result))
     table.rows.push_back({result.scenes[size_t(claim.scene)].label(), strategy_name(claim.sampler),
                           std::to_string(claim.samples), interval_text(claim.equal),
