@@ -38,7 +38,8 @@ void describe(Command& c, StudyFlags& f) {
   StudySettings& s = f.study;
   c.paragraph(
       "Renders looks under lights by every sampling strategy, several seeds each, against references, and writes a "
-      "folder: index.html with pictures to compare, plots as SVG and PNG, study.csv with every render, study.json and "
+      "folder: index.html with pictures to compare, plots as SVG and PNG, study.csv with every render, study.json "
+      "and "
       "study.txt. It tells which strategy has the least error in the same CPU time, whether the bars are passed, and "
       "where the talk's claims hold. Stopped by Ctrl-C it writes the scenes that are finished.");
   c.group("What is studied");

@@ -22,7 +22,9 @@ int enough_of(const PriceList& list) {
     return count - 1;
   }
   int best = 0;
-  const auto price = [&](int i) { return std::pow(list.prices[size_t(i)].noise, 2) * list.prices[size_t(i)].cpu_seconds; };
+  const auto price = [&](int i) {
+    return std::pow(list.prices[size_t(i)].noise, 2) * list.prices[size_t(i)].cpu_seconds;
+  };
   for (int i = 1; i < count; ++i)
     if (price(i) < price(best)) best = i;
   return best;
@@ -127,7 +129,8 @@ void settle_advice(CostResult& result) {
     result.qualities.push_back(quality);
   }
   for (double target = 0.2; target > 0.004; target *= 0.8)
-    if (const Quality q = best(target); q.reached) result.frontier.push_back({q.cpu_seconds, std::hypot(q.noise, q.bias)});
+    if (const Quality q = best(target); q.reached)
+      result.frontier.push_back({q.cpu_seconds, std::hypot(q.noise, q.bias)});
 }
 
 }  // namespace sateen

@@ -32,9 +32,9 @@ struct Interval {
 double student_t(int degrees);
 
 /// A positive quantity that comes out of `count` independent repetitions together, such as a ratio of mean errors.
-/// `log_value(k)` is its logarithm without repetition k, from 1; 0 leaves none out. The interval is the jackknife's with
-/// Student's t, in logarithms: means stay means, so that a rare bright sample counts as it should. One repetition: low
-/// and high are the value.
+/// `log_value(k)` is its logarithm without repetition k, from 1; 0 leaves none out. The interval is the jackknife's
+/// with Student's t, in logarithms: means stay means, so that a rare bright sample counts as it should. One
+/// repetition: low and high are the value.
 Interval jackknife_interval(int count, const std::function<double(int without)>& log_value);
 
 }  // namespace sateen

@@ -25,8 +25,8 @@ double sample_price(const StudyResult& result, int scene, Strategy strategy);
 double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, int samples, Measure measure,
                       int without = 0);
 
-/// MSE at a CPU time, by the straight line in logarithms between the two measured sample numbers about it. 0 where the
-/// strategy was not measured there.
+/// MSE at a CPU time, by the straight line in logarithms between the two measured sample numbers about it. 0 where
+/// the strategy was not measured there.
 double mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds, Measure measure,
                    int without = 0);
 
@@ -53,7 +53,7 @@ Winner scene_winner(const StudyResult& result, int scene, Measure measure);
 
 /// One bar: a ratio that must not be passed.
 struct Bar {
-  std::string what;   ///< "mis-compensated over uniform, equal CPU time, geometric mean of 18 scenes"
+  std::string what;  ///< "mis-compensated over uniform, equal CPU time, geometric mean of 18 scenes"
   double limit = 0;
   Interval found;
   bool passed = false;

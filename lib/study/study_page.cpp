@@ -19,10 +19,10 @@ void add_sliders(Page& page, const StudyResult& result, int scene, const std::fi
       shown.push_back({picture.label, picture_uri(folder / fmt::format("{:02}.jpg", i))});
     }
     if (shown.size() < 2) continue;
-    page.slider(fmt::format("{}: {}. Drag the divider; choose what is compared below it.",
-                            result.scenes[size_t(scene)].label(),
-                            equal_time ? "equal CPU time" : "equal number of samples"),
-                shown, 760);
+    page.slider(
+        fmt::format("{}: {}. Drag the divider; choose what is compared below it.",
+                    result.scenes[size_t(scene)].label(), equal_time ? "equal CPU time" : "equal number of samples"),
+        shown, 760);
   }
 }
 
@@ -36,9 +36,10 @@ std::string summary(const StudyResult& result) {
     ++scenes;
     won += winner.strategy == result.ours;
   }
-  return fmt::format("{} of {} bars are passed. The default strategy, {}, has the least error at equal time in {} of {} "
-                     "scenes.",
-                     passed, bars.size(), strategy_name(result.ours), won, scenes);
+  return fmt::format(
+      "{} of {} bars are passed. The default strategy, {}, has the least error at equal time in {} of {} "
+      "scenes.",
+      passed, bars.size(), strategy_name(result.ours), won, scenes);
 }
 
 }  // namespace
@@ -50,14 +51,17 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
   for (const std::string& each : result.skipped) page.note(each);
   page.paragraph(fmt::format(
       "Every strategy converges to the same picture; they differ in how much of their time is noise. Error is the "
-      "relative mean squared error against a reference: the mean over pixels and channels of (x - r)^2 / (r^2 + 0.01) "
-      "in the working space, the square of the E that the program prints. Its square root is what is seen: a ratio of "
+      "relative mean squared error against a reference: the mean over pixels and channels of (x - r)^2 / (r^2 + "
+      "0.01) "
+      "in the working space, the square of the E that the program prints. Its square root is what is seen: a ratio "
+      "of "
       "0.25 is half the noise."));
 
   page.section("Side by side");
   std::vector<int> pictured;
   for (const StudyPicture& picture : result.pictures)
-    if (std::find(pictured.begin(), pictured.end(), picture.scene) == pictured.end()) pictured.push_back(picture.scene);
+    if (std::find(pictured.begin(), pictured.end(), picture.scene) == pictured.end())
+      pictured.push_back(picture.scene);
   for (const int scene : pictured) add_sliders(page, result, scene, picture_folder);
   if (pictured.empty()) page.note("No pictures were taken.");
 
@@ -70,12 +74,14 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
   for (const NamedPlot& plot : plots)
     if (plot.name == "equal_time") page.plot(plot.sheet, plot.caption);
   page.table(winner_table(result));
-  page.paragraph(fmt::format("MSE of {} over that of every other strategy, at equal CPU time:", strategy_name(result.ours)));
+  page.paragraph(
+      fmt::format("MSE of {} over that of every other strategy, at equal CPU time:", strategy_name(result.ours)));
   page.table(ratio_table(result));
 
   page.section("The talk's figures");
   page.paragraph(
-      "The talk claims, for directions drawn from the cloth against uniform ones: at most a quarter of the MSE at equal "
+      "The talk claims, for directions drawn from the cloth against uniform ones: at most a quarter of the MSE at "
+      "equal "
       "samples, and less MSE than uniform with four times the samples.");
   for (const NamedPlot& plot : plots)
     if (plot.name != "equal_time") page.plot(plot.sheet, plot.caption);
@@ -84,9 +90,12 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
 
   page.section("How it was measured");
   page.paragraph(fmt::format(
-      "{} on {}, {} x {} pixels, {} seeds. Sample numbers are powers of two times the film's replicates. Equal time is "
-      "the CPU time of {} at {} samples: each strategy was measured at the two numbers of samples about that time and "
-      "its error taken from the line between them in logarithms. Renders of all strategies alternate. CPU time is that "
+      "{} on {}, {} x {} pixels, {} seeds. Sample numbers are powers of two times the film's replicates. Equal time "
+      "is "
+      "the CPU time of {} at {} samples: each strategy was measured at the two numbers of samples about that time "
+      "and "
+      "its error taken from the line between them in logarithms. Renders of all strategies alternate. CPU time is "
+      "that "
       "of rendering: the direction table (about 0.3 s a look) and the ray tracer are built before.",
       fmt::format("{} scenes", result.scenes.size()), result.settings.scene.mesh, result.settings.scene.width,
       result.settings.scene.height, result.settings.seeds, strategy_name(result.ours), result.settings.samples));

@@ -12,13 +12,14 @@ NamedPlot ladder_plot(const StudyResult& result, const std::string& look, int bo
   NamedPlot plot;
   plot.name = fmt::format("samples_{}_{}", look, bounces > 0 ? "bounces" : "direct");
   plot.sheet.title = "MSE against samples: " + look;
-  plot.sheet.subtitle = fmt::format("{}; relative MSE, bars are 95 % intervals over {} seeds",
-                                    bounces > 0 ? fmt::format("with {} bounces", bounces) : "direct light",
-                                    result.settings.seeds);
+  plot.sheet.subtitle =
+      fmt::format("{}; relative MSE, bars are 95 % intervals over {} seeds",
+                  bounces > 0 ? fmt::format("with {} bounces", bounces) : "direct light", result.settings.seeds);
   plot.sheet.columns = 3;
   plot.sheet.panel_height = 290;
-  plot.caption = "Mean squared error against samples a pixel, by light. Lower is better; a steeper line gains more from "
-                 "every doubling.";
+  plot.caption =
+      "Mean squared error against samples a pixel, by light. Lower is better; a steeper line gains more from "
+      "every doubling.";
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     const StudyScene& scene = result.scenes[size_t(i)];
     if (scene.look != look || scene.bounces != bounces || !scene.ladder || !scene.finished) continue;
@@ -51,9 +52,10 @@ NamedPlot equal_time_plot(const StudyResult& result) {
   plot.sheet.title = "All strategies at equal CPU time";
   plot.sheet.subtitle = fmt::format("relative MSE over that of {} ({} samples); left is better, 1 is as good", ours,
                                     result.settings.samples);
-  plot.caption = fmt::format("Each row is a scene, each sign a strategy with as many samples as fit into the CPU time "
-                             "of {} at {} samples. Bars are 95 % intervals over the seeds.",
-                             ours, result.settings.samples);
+  plot.caption = fmt::format(
+      "Each row is a scene, each sign a strategy with as many samples as fit into the CPU time "
+      "of {} at {} samples. Bars are 95 % intervals over the seeds.",
+      ours, result.settings.samples);
   Plot panel;
   panel.x_label = "MSE over that of " + ours;
   panel.log_y = false;

@@ -55,7 +55,8 @@ double half_light_share(const Environment& environment) {
   std::vector<Part> parts;
   double energy = 0;
   for (int y = 0; y < environment.height; ++y) {
-    const double solid_angle = environment_row_weight(y, environment.height) / 2 / environment.width;  // of the sphere
+    const double solid_angle =
+        environment_row_weight(y, environment.height) / 2 / environment.width;  // of the sphere
     for (int x = 0; x < environment.width; ++x) {
       const Color& c = environment.texels[size_t(y) * size_t(environment.width) + size_t(x)].radiance;
       double luminance = 0;
