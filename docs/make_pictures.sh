@@ -62,5 +62,14 @@ lobe() {
   echo "$out/lobe.png"
 }
 
-[ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe
+cost() {
+  local list
+  list=$(mktemp -d)
+  "$sateen" cost -q -l emerald_satin -e low_sun -s 64 -o "$list"
+  cp "$list/error_time.png" "$out/cost.png"
+  rm -r "$list"
+  echo "$out/cost.png"
+}
+
+[ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe cost
 for part in "$@"; do "$part"; done

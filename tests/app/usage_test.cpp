@@ -129,8 +129,9 @@ TEST(Usage, AnUnknownColourConfigViewAndSpaceAreLoud) {
 
 TEST(Usage, EveryCommandHasHelpWithExamples) {
   const std::vector<std::vector<std::string>> commands{
-      {"render"},          {"turntable"},    {"lobe"},           {"check"},       {"look", "check"},
-      {"look", "resolve"}, {"look", "diff"}, {"look", "schema"}, {"env", "make"}, {"env", "inspect"}};
+      {"study"},        {"cost"},           {"render"},        {"turntable"},
+      {"lobe"},         {"check"},          {"look", "check"}, {"look", "resolve"},
+      {"look", "diff"}, {"look", "schema"}, {"env", "make"},   {"env", "inspect"}};
   for (auto words : commands) {
     words.push_back("--help");
     const Finished run = run_sateen(words);
@@ -144,7 +145,7 @@ TEST(Usage, EveryCommandHasHelpWithExamples) {
 }
 
 TEST(Usage, NoLineOfHelpIsWiderThanATerminal) {
-  for (const std::string command : {"render", "turntable", "lobe", "check"}) {
+  for (const std::string command : {"render", "turntable", "lobe", "check", "study", "cost"}) {
     const std::string help = run_sateen({command, "--help"}).out;
     for (size_t at = 0, end = 0; at < help.size(); at = end + 1) {
       end = std::min(help.find('\n', at), help.size());
@@ -156,7 +157,7 @@ TEST(Usage, NoLineOfHelpIsWiderThanATerminal) {
 TEST(Usage, TheOverviewNamesEveryCommandAndExitCode) {
   const Finished run = run_sateen({});
   EXPECT_EQ(run.code, 0);
-  for (const char* word : {"render", "turntable", "look", "lobe", "env", "check", "130, 143"})
+  for (const char* word : {"render", "turntable", "cost", "study", "look", "lobe", "env", "check", "130, 143"})
     EXPECT_NE(run.out.find(word), std::string::npos) << word;
   EXPECT_EQ(run_sateen({"--help"}).out, run.out);
   EXPECT_EQ(run_sateen({"help"}).out, run.out);

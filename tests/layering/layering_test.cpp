@@ -33,8 +33,8 @@ std::vector<SourceFile> project_files() {
 TEST(Layering, RoomsIncludeDownwardsAndOutsideLibrariesStayInTheirPlaces) {
   const std::vector<std::string> rooms = rooms_in_order(text_of(SATEEN_SOURCE_DIR "/lib/CMakeLists.txt"));
   ASSERT_EQ(rooms.front(), "base");
-  ASSERT_EQ(rooms.back(), "render");
-  ASSERT_EQ(rooms.size(), 11u);
+  ASSERT_EQ(rooms.back(), "study");
+  ASSERT_EQ(rooms.size(), 13u);
   const std::vector<SourceFile> files = project_files();
   ASSERT_GT(files.size(), 100u);
   for (const std::string& breach : breaches(files, rooms)) ADD_FAILURE() << breach;

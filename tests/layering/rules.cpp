@@ -136,6 +136,7 @@ const std::vector<OutsideLibrary>& outside_libraries() {
       {"OpenEXR", {"OpenEXR/", "Imf", "Iex"}, {"lib/image/"}},
       {"nlohmann json", {"nlohmann/"}, {"lib/look/json.cpp"}},
       {"CLI11", {"CLI/"}, {"app/"}},
+      {"Cairo", {"cairo"}, {"lib/report/"}},
       {"TBB", {"tbb/", "oneapi/"}, {"lib/base/parallel.cpp"}},
       // half is the pixel type of OpenEXR.
       {"Imath's half", {"Imath/half"}, {"lib/image/"}},

@@ -1,0 +1,65 @@
+#include "study/measure.h"
+
+#include <array>
+#include <cmath>
+
+namespace sateen {
+
+namespace {
+constexpr double floor_squared = 0.01;  // of E, film/film.h
+}
+
+Reference make_reference(const Film& film, int samples) {
+  Reference reference;
+  reference.samples = samples;
+  for (const FilmPixel& pixel : film.pixels) {
+    const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
+    reference.values.push_back(mean);
+    for (int c = 0; c < 3; ++c) {
+      reference.own.absolute += double(variance[c]);
+      reference.own.relative += double(variance[c]) / (double(mean[c]) * double(mean[c]) + floor_squared);
+    }
+  }
+  const double count = 3 * double(film.pixels.size());
+  reference.own.absolute /= count;
+  reference.own.relative /= count;
+  return reference;
+}
+
+PictureMse mse_against(const Film& film, const Reference& reference) {
+  PictureMse mse;
+  for (size_t i = 0; i < film.pixels.size(); ++i) {
+    const Color mean = pixel_mean(film.pixels[i]), truth = reference.values[i];
+    for (int c = 0; c < 3; ++c) {
+      const double off = double(mean[c]) - double(truth[c]);
+      mse.absolute += off * off;
+      mse.relative += off * off / (double(truth[c]) * double(truth[c]) + floor_squared);
+    }
+  }
+  const double count = 3 * double(film.pixels.size());
+  return {mse.absolute / count, mse.relative / count};
+}
+
+double student_t(int degrees) {
+  static constexpr std::array<double, 30> table{
+      12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131,
+      2.120,  2.110, 2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
+  if (degrees <= int(table.size())) return table[size_t(degrees < 1 ? 0 : degrees - 1)];
+  return 1.96 + 2.5 / degrees;
+}
+
+Interval jackknife_interval(int count, const std::function<double(int without)>& log_value) {
+  const double value = log_value(0);
+  if (count < 2) return {std::exp(value), std::exp(value), std::exp(value)};
+  std::vector<double> left;
+  double mean = 0, scatter = 0;
+  for (int k = 1; k <= count; ++k) {
+    left.push_back(log_value(k));
+    mean += left.back() / count;
+  }
+  for (const double v : left) scatter += (v - mean) * (v - mean);
+  const double half = student_t(count - 1) * std::sqrt(scatter * (count - 1) / count);
+  return {std::exp(value), std::exp(value - half), std::exp(value + half)};
+}
+
+}  // namespace sateen

@@ -1,0 +1,163 @@
+#include "study/study_analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace sateen {
+
+namespace {
+std::set<int> measured_samples(const StudyResult& result, int scene, Strategy strategy) {
+  std::set<int> all;
+  for (const StudyRun& run : result.runs)
+    if (run.scene == scene && run.strategy == strategy) all.insert(run.samples);
+  return all;
+}
+
+// `mse` gives above and below without a seed; 0 where one was not measured.
+Ratio ratio_of(int seeds, const std::function<std::pair<double, double>(int without)>& mse) {
+  const auto [above, below] = mse(0);
+  if (!(above > 0) || !(below > 0)) return {};
+  return {true, jackknife_interval(seeds, [&](int without) {
+            const auto [top, bottom] = mse(without);
+            return std::log(top / bottom);
+          })};
+}
+}  // namespace
+
+double value_of(const PictureMse& mse, Measure measure) {
+  return measure == Measure::relative ? mse.relative : mse.absolute;
+}
+
+std::vector<CurvePoint> study_curve(const StudyResult& result, int scene, Strategy strategy, Measure measure) {
+  std::vector<CurvePoint> curve;
+  for (const int samples : measured_samples(result, scene, strategy)) {
+    double cpu = 0;
+    int count = 0;
+    for (const StudyRun& run : result.runs)
+      if (run.scene == scene && run.strategy == strategy && run.samples == samples) cpu += run.cpu_seconds, ++count;
+    curve.push_back({samples, cpu / count, jackknife_interval(result.settings.seeds, [&](int without) {
+                       return std::log(mse_at_samples(result, scene, strategy, samples, measure, without));
+                     })});
+  }
+  return curve;
+}
+
+double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, int samples, Measure measure,
+                      int without) {
+  double sum = 0;
+  int count = 0;
+  for (const StudyRun& run : result.runs)
+    if (run.scene == scene && run.strategy == strategy && run.samples == samples && run.seed != without)
+      sum += value_of(run.mse, measure), ++count;
+  return count > 0 ? sum / count : 0;
+}
+
+double sample_price(const StudyResult& result, int scene, Strategy strategy) {
+  std::vector<double> prices;
+  for (const StudyRun& run : result.runs)
+    if (run.scene == scene && run.strategy == strategy) prices.push_back(run.cpu_seconds / run.samples);
+  if (prices.empty()) return 0;
+  std::sort(prices.begin(), prices.end());
+  const size_t n = prices.size();
+  return n % 2 == 1 ? prices[n / 2] : (prices[n / 2 - 1] + prices[n / 2]) / 2;
+}
+
+double mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds, Measure measure,
+                   int without) {
+  const double price = sample_price(result, scene, strategy);
+  const std::set<int> numbers = measured_samples(result, scene, strategy);
+  if (price <= 0 || numbers.size() < 2) return 0;
+  // The two measured numbers about the samples that the time buys; a little beyond the last is still told by them.
+  const double wanted = cpu_seconds / price;
+  auto upper = numbers.lower_bound(int(std::ceil(wanted)));
+  if (upper == numbers.end()) --upper;
+  if (upper == numbers.begin()) ++upper;
+  const int high = *upper, low = *std::prev(upper);
+  const double share = std::log(wanted / low) / std::log(double(high) / low);
+  if (share < -0.5 || share > 1.5) return 0;
+  return std::exp((1 - share) * std::log(mse_at_samples(result, scene, strategy, low, measure, without)) +
+                  share * std::log(mse_at_samples(result, scene, strategy, high, measure, without)));
+}
+
+double common_time(const StudyResult& result, int scene) {
+  return sample_price(result, scene, result.ours) * result.settings.samples;
+}
+
+Ratio equal_time_ratio(const StudyResult& result, int scene, Strategy above, Strategy below, Measure measure) {
+  const double time = common_time(result, scene);
+  return ratio_of(result.settings.seeds, [&](int without) {
+    return std::pair(mse_at_time(result, scene, above, time, measure, without),
+                     mse_at_time(result, scene, below, time, measure, without));
+  });
+}
+
+Ratio samples_ratio(const StudyResult& result, int scene, Strategy above, int above_samples, Strategy below,
+                    int below_samples, Measure measure) {
+  return ratio_of(result.settings.seeds, [&](int without) {
+    return std::pair(mse_at_samples(result, scene, above, above_samples, measure, without),
+                     mse_at_samples(result, scene, below, below_samples, measure, without));
+  });
+}
+
+Winner scene_winner(const StudyResult& result, int scene, Measure measure) {
+  std::vector<std::pair<double, Strategy>> order;
+  const double time = common_time(result, scene);
+  for (const std::string& name : strategy_names()) {
+    const Strategy strategy = strategy_from_name(name);
+    const double mse = mse_at_time(result, scene, strategy, time, measure);
+    if (mse > 0) order.emplace_back(mse, strategy);
+  }
+  std::sort(order.begin(), order.end());
+  Winner winner;
+  if (order.size() < 2) return winner;
+  winner.known = true;
+  winner.strategy = order[0].second;
+  winner.second = order[1].second;
+  winner.clear = equal_time_ratio(result, scene, winner.strategy, winner.second, measure).interval.high < 1;
+  return winner;
+}
+
+std::vector<Bar> study_bars(const StudyResult& result) {
+  std::vector<Bar> bars;
+  const std::string ours = strategy_name(result.ours);
+  const auto equal_time = [&](Strategy below, const std::string& text, double limit) {
+    std::vector<int> scenes;
+    for (int i = 0; i < int(result.scenes.size()); ++i)
+      if (result.scenes[size_t(i)].all_strategies && result.scenes[size_t(i)].finished &&
+          mse_at_time(result, i, below, common_time(result, i), Measure::relative) > 0)
+        scenes.push_back(i);
+    const int count = int(scenes.size());
+    if (count == 0) return;
+    // The interval holds what the seeds do, not the choice of scenes.
+    const Interval found = jackknife_interval(result.settings.seeds, [&](int without) {
+      double sum = 0;
+      for (const int i : scenes) {
+        const double time = common_time(result, i);
+        sum += std::log(mse_at_time(result, i, result.ours, time, Measure::relative, without) /
+                        mse_at_time(result, i, below, time, Measure::relative, without));
+      }
+      return sum / count;
+    });
+    bars.push_back({fmt::format("{} over {}, equal CPU time, geometric mean of {} scene{}", ours, text, count,
+                                count == 1 ? "" : "s"),
+                    limit, found, found.value <= limit});
+  };
+  equal_time(Strategy::uniform, "uniform", 0.01);
+  equal_time(Strategy::mis_talk, "mis-talk (the talk's sampler and the map)", 0.15);
+  equal_time(Strategy::mis, "mis (table and map)", 0.35);
+  for (int i = 0; i < int(result.scenes.size()); ++i) {
+    const StudyScene& s = result.scenes[size_t(i)];
+    if (s.light != white_light || s.bounces > 0 || !s.finished) continue;
+    const int n = result.settings.samples;
+    const Ratio ratio = samples_ratio(result, i, Strategy::table, n, Strategy::uniform, n, Measure::relative);
+    if (!ratio.known) continue;
+    bars.push_back({fmt::format("table over uniform, {} samples each, {} in constant white light", n, s.look), 0.06,
+                    ratio.interval, ratio.interval.value <= 0.06});
+  }
+  return bars;
+}
+
+}  // namespace sateen
