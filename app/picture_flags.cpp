@@ -204,7 +204,7 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int default_s
   if (no_rule) stop.spp = default_spp;
   f.render.adaptive = command.given("--adaptive") ? f.adaptive : no_rule || stop.error > 0 || stop.seconds > 0;
   f.render.seed = std::uint32_t(f.seed);
-  if (f.strategy != "auto") f.render.light.strategy = strategy_from_name(f.strategy);
+  f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
   settle_effects(f.effects, command.given("--bounces"), f.render.light);
   f.layer_list = read_layers(f.layers);

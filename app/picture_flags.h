@@ -17,7 +17,7 @@ struct PictureFlags {
   std::optional<float> exposure_ev;  ///< empty: metered
   std::vector<std::string> outputs;
   std::string ocio, working, stats;
-  std::string strategy = "auto", effects = "auto", layers = "all";
+  std::string strategy = strategy_name(Strategy::automatic), effects = "auto", layers = "all";
   std::string progress_name = "auto";
   bool strict = false, adaptive = false, dry_run = false, quiet = false, verbose = false;
   int seed = 1;

@@ -132,8 +132,9 @@ PictureJob make_job(const PictureFlags& flags, const SceneReport& report, const 
   PictureJob job;
   job.scene = flags.scene;
   job.render = flags.render;
-  if (flags.strategy == "auto") {
+  if (flags.render.light.strategy == Strategy::automatic) {
     const StopRules& stop = flags.render.stop;
+    job.render.light.strategy = LightSettings().strategy;
     // Below that the pilot would cost more than it saves.
     constexpr int least_samples = 32;
     if (stop.spp == 0 || stop.spp >= least_samples) {

@@ -189,6 +189,7 @@ void choose_light_rays(const Scene& scene, std::span<const ClothPoint> points, c
     case Strategy::mis_talk:
       return batch.by_both(sampler, EnvironmentDensity::radiance);
     case Strategy::mis_compensated:
+    case Strategy::automatic:
       // Nothing of a constant map stands out from its mean: all of it is the table's.
       if (!drawable(scene.environment.by_compensated)) return batch.by_fabric(sampler);
       return batch.by_both(sampler, EnvironmentDensity::compensated);

@@ -7,6 +7,10 @@
 
 namespace sateen {
 
+namespace {
+constexpr const char* automatic_name = "auto";
+}
+
 const std::vector<std::string>& strategy_names() {
   static const std::vector<std::string> names{"uniform",         "talk",     "table",    "environment", "mis",
                                               "mis-compensated", "mis-talk", "resampled"};
@@ -14,6 +18,7 @@ const std::vector<std::string>& strategy_names() {
 }
 
 Strategy strategy_from_name(const std::string& name) {
+  if (name == automatic_name) return Strategy::automatic;
   const std::vector<std::string>& names = strategy_names();
   for (size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return Strategy(i);
@@ -21,7 +26,7 @@ Strategy strategy_from_name(const std::string& name) {
 }
 
 std::string strategy_name(Strategy strategy) {
-  return strategy_names()[size_t(strategy)];
+  return strategy == Strategy::automatic ? automatic_name : strategy_names()[size_t(strategy)];
 }
 
 FabricSampler strategy_sampler(Strategy strategy) {

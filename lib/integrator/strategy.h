@@ -15,11 +15,12 @@ enum class Strategy {
   mis,              ///< table and map, balance heuristic, two shadow rays
   mis_compensated,  ///< table and compensated map, balance heuristic, two shadow rays
   mis_talk,         ///< the talk's sampler and map, balance heuristic, two shadow rays
-  resampled         ///< candidates of table and compensated map, one kept, one shadow ray
+  resampled,        ///< candidates of table and compensated map, one kept, one shadow ray
+  automatic         ///< whichever a pilot finds best (render/pilot.h); until it has, mis_compensated
 };
 
-const std::vector<std::string>& strategy_names();      ///< in the order of the enum, as on the command line
-Strategy strategy_from_name(const std::string& name);  ///< InputError with the nearest name
+const std::vector<std::string>& strategy_names();      ///< in the order of the enum, without `automatic`
+Strategy strategy_from_name(const std::string& name);  ///< "auto" too; InputError with the nearest name
 std::string strategy_name(Strategy strategy);
 FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
 

@@ -83,7 +83,7 @@ double mse_at_time(const StudyResult& result, int scene, Strategy strategy, doub
 }
 
 double common_time(const StudyResult& result, int scene) {
-  return sample_price(result, scene, result.ours) * result.settings.samples;
+  return sample_price(result, scene, Strategy::mis_compensated) * result.settings.samples;
 }
 
 Ratio equal_time_ratio(const StudyResult& result, int scene, Strategy above, Strategy below, Measure measure) {

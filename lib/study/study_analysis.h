@@ -30,7 +30,7 @@ double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, i
 double mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds, Measure measure,
                    int without = 0);
 
-/// The common CPU time of a scene: that of the default strategy at StudySettings::samples.
+/// The common CPU time of a scene: that of mis-compensated at StudySettings::samples.
 double common_time(const StudyResult& result, int scene);
 
 /// MSE of `above` over that of `below` at equal CPU time; the interval is over the seeds.

@@ -50,12 +50,11 @@ NamedPlot equal_time_plot(const StudyResult& result) {
   plot.name = "equal_time";
   const std::string ours = strategy_name(result.ours);
   plot.sheet.title = "All strategies at equal CPU time";
-  plot.sheet.subtitle = fmt::format("relative MSE over that of {} ({} samples); left is better, 1 is as good", ours,
-                                    result.settings.samples);
+  plot.sheet.subtitle = fmt::format("relative MSE over that of {}; left is better, 1 is as good", ours);
   plot.caption = fmt::format(
       "Each row is a scene, each sign a strategy with as many samples as fit into the CPU time "
-      "of {} at {} samples. Bars are 95 % intervals over the seeds.",
-      ours, result.settings.samples);
+      "of mis-compensated at {} samples. Bars are 95 % intervals over the seeds.",
+      result.settings.samples);
   Plot panel;
   panel.x_label = "MSE over that of " + ours;
   panel.log_y = false;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/pilot.h"
 #include "render/render.h"
 #include "study/study.h"
 #include "study/study_pictures.h"
@@ -22,6 +23,7 @@ constexpr int ladder_looks = 2;  // the talk's: satin and silk
 std::vector<Strategy> all_strategies() {
   std::vector<Strategy> all;
   for (const std::string& name : strategy_names()) all.push_back(strategy_from_name(name));
+  all.push_back(Strategy::automatic);
   return all;
 }
 
@@ -117,7 +119,7 @@ class Study {
     double price = 1e300;  // the least of three: another program's load must not change the study
     for (int i = 0; i < 3; ++i) {
       StudyRun run;
-      render_film(scene, result_.ours, 32, 1, 0, run);
+      render_film(scene, Strategy::mis_compensated, 32, 1, 0, run);
       price = std::min(price, run.cpu_seconds / 32);
     }
     for (const int samples : {64, 32, 16}) {
@@ -135,7 +137,8 @@ class Study {
   Film render_film(const Scene& scene, Strategy strategy, int samples, std::uint32_t seed, int bounces,
                    StudyRun& run) {
     RenderSettings settings;
-    settings.light.strategy = strategy;
+    settings.light.strategy = strategy == Strategy::automatic ? pilot_ : strategy;
+    settings.adaptive = strategy == Strategy::automatic;
     settings.light.bounces = bounces;
     settings.stop.spp = samples;
     settings.seed = seed;
@@ -160,6 +163,8 @@ class Study {
     SceneReport report;
     const Scene scene = assemble_study_scene(scene_settings(s), colors_, report);
     s.light_share = half_light_share(scene.environment);
+    if (s.all_strategies) s.pilot = choose_strategy(scene, {}, 1, result_.settings.threads).strategy;
+    pilot_ = s.pilot;
     s.reference_samples = reference_factor * at_equal_time / (s.bounces > 0 ? 2 : 1);
     StudyRun ignored;
     const Film truth =
@@ -202,7 +207,7 @@ class Study {
     if (!s.all_strategies) return list;
     const std::map<Strategy, double> price = prices(scene);
     for (const Strategy strategy : all_strategies()) {
-      const int below = power_below(price.at(result_.ours) * at_equal_time / price.at(strategy));
+      const int below = power_below(price.at(Strategy::mis_compensated) * at_equal_time / price.at(strategy));
       add(strategy, below);
       add(strategy, 2 * below);
     }
@@ -214,11 +219,14 @@ class Study {
 
   // CPU-seconds a sample, the smaller of two interleaved pilots.
   std::map<Strategy, double> prices(const Scene& scene) {
+    const int at_equal_time = result_.settings.samples;
     std::map<Strategy, double> price;
     for (int round = 0; round < 2; ++round)
       for (const Strategy strategy : all_strategies()) {
         StudyRun run;
-        render_film(scene, strategy, 2 * replicates, reference_seed + 1, 0, run);
+        // Samples are not dealt out by error before the first barriers.
+        const int number = strategy == Strategy::automatic ? at_equal_time : 2 * replicates;
+        render_film(scene, strategy, number, reference_seed + 1, 0, run);
         const double each = run.cpu_seconds / run.samples;
         price[strategy] = round == 0 ? each : std::min(price[strategy], each);
       }
@@ -260,6 +268,7 @@ class Study {
   const std::function<void(const StudyState&)>& observe_;
   WorkClock clock_;
   StudyResult result_;
+  Strategy pilot_ = Strategy::mis_compensated;  ///< of the scene that is being measured
 };
 
 }  // namespace
