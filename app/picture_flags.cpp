@@ -109,6 +109,9 @@ void add_quality(Command& c, PictureFlags& f) {
             "samples a pixel, with --adaptive their mean (default: 64, adaptive, when no other rule is given)");
   c.number("--error", "E", stop.error, 1e-6, 100,
            "relative error of the picture, such as 0.02; its upper bound counts");
+  c.text("--quality", "NAME", f.quality,
+         "draft, preview or final: --error 0.1, 0.04 or 0.01 with 0, 1 or 2 bounces, where these are not given; "
+         "sateen cost finds what suits your scene");
   c.custom(
       "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
       "wall clock for rendering: 30, 30s, 2m, 1h30m");
@@ -188,6 +191,25 @@ void settle_effects(const std::string& list, bool bounces_given, LightSettings& 
     if (off) light.bounces = 0;
   }
 }
+
+/// What a quality asks for where the command line does not. Its errors are those that `sateen cost` recommends for.
+struct Quality {
+  std::string name;
+  double error;
+  int bounces;
+};
+void settle_quality(const std::string& name, bool bounces_given, RenderSettings& render) {
+  static const std::vector<Quality> all{{"draft", 0.10, 0}, {"preview", 0.04, 1}, {"final", 0.01, 2}};
+  if (name.empty()) return;
+  for (const Quality& quality : all)
+    if (quality.name == name) {
+      if (render.stop.error == 0) render.stop.error = quality.error;
+      if (!bounces_given) render.light.bounces = quality.bounces;
+      return;
+    }
+  throw InputError(fmt::format("there is no quality {}", shown_name(name)),
+                   suggestion(name, {"draft", "preview", "final"}));
+}
 }  // namespace
 
 void add_picture_flags(Command& command, PictureFlags& flags) {
@@ -200,13 +222,14 @@ void add_picture_flags(Command& command, PictureFlags& flags) {
 void settle_picture_flags(const Command& command, PictureFlags& f, int default_spp) {
   voice.verbosity = f.quiet ? Verbosity::quiet : f.verbose ? Verbosity::detailed : Verbosity::normal;
   StopRules& stop = f.render.stop;
+  settle_quality(f.quality, command.given("--bounces"), f.render);
   const bool no_rule = stop.spp == 0 && stop.error == 0 && stop.seconds == 0;
   if (no_rule) stop.spp = default_spp;
   f.render.adaptive = command.given("--adaptive") ? f.adaptive : no_rule || stop.error > 0 || stop.seconds > 0;
   f.render.seed = std::uint32_t(f.seed);
   f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
-  settle_effects(f.effects, command.given("--bounces"), f.render.light);
+  settle_effects(f.effects, command.given("--bounces") || !f.quality.empty(), f.render.light);
   f.layer_list = read_layers(f.layers);
   f.render.albedo_layer = std::find(f.layer_list.begin(), f.layer_list.end(), "albedo") != f.layer_list.end();
   f.progress = progress_style(f);

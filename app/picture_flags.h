@@ -16,7 +16,7 @@ struct PictureFlags {
   DisplaySettings display;
   std::optional<float> exposure_ev;  ///< empty: metered
   std::vector<std::string> outputs;
-  std::string ocio, working, stats;
+  std::string ocio, working, stats, quality;
   std::string strategy = strategy_name(Strategy::automatic), effects = "auto", layers = "all";
   std::string progress_name = "auto";
   bool strict = false, adaptive = false, dry_run = false, quiet = false, verbose = false;

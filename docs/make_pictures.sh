@@ -15,9 +15,9 @@ picture() {  # picture NAME [flags]
   echo "$out/$1.jpg"
 }
 
-small=(-r 320 180 -s 192)
+small=(-r 320 180 -s 96 --adaptive)
 
-hero() { picture hero -s 384; }
+hero() { picture hero -s 96 --adaptive; }
 
 looks() {
   for file in looks/*.json; do
@@ -33,7 +33,7 @@ lights() {
 }
 
 meshes() {
-  picture skirt -m skirt -l rose_gold_satin --elevation 10 -r 360 360 -s 256
+  picture skirt -m skirt -l rose_gold_satin --elevation 10 -r 360 360 -s 96 --adaptive
   picture tour_wide -l emerald_satin --set warp.gamma_s_deg=12 --set warp.gamma_v_deg=24 "${small[@]}"
 }
 
@@ -43,16 +43,16 @@ garments() {
     return
   fi
   picture suit_satin -m "$garments/female_elegantsuit01.obj" -e "$maps/studio.exr" -l emerald_satin --elevation 8 \
-    -r 300 400 -s 256
+    -r 300 400 -s 96 --adaptive
   picture suit_silk -m "$garments/male_casualsuit01.obj" -e "$maps/apartment.exr" -l silk_crepe_de_chine --elevation 8 \
-    -r 300 400 -s 256
+    -r 300 400 -s 96 --adaptive
 }
 
 turntable() {
   local frames
   frames=$(mktemp -d)
   "$sateen" turntable -q --progress none --bounces 2 -l shot_taffeta -n 6 -r 270 180 \
-    -s 128 -o "$frames/f.####.png" --sheet "$out/turntable.jpg"
+    -s 64 --adaptive -o "$frames/f.####.png" --sheet "$out/turntable.jpg"
   rm -r "$frames"
   echo "$out/turntable.jpg"
 }

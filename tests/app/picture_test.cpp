@@ -76,6 +76,22 @@ TEST(Render, AnExrHoldsItsLayersAndSaysHowItWasMade) {
     EXPECT_TRUE(a.contains(std::string("sateen:") + name)) << name;
 }
 
+TEST(Render, AQualityAsksForItsErrorAndBouncesWhereTheCommandLineDoesNot) {
+  const auto dry = [](std::vector<std::string> flags) {
+    flags.insert(flags.end(), {"render", "--mesh", "swatch", "--dry-run", "--json"});
+    std::rotate(flags.begin(), flags.end() - 5, flags.end());
+    const Finished run = run_sateen(flags);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out;
+  };
+  const std::string final_ = dry({"--quality", "final"});
+  EXPECT_NE(final_.find("\"bounces\": 2"), std::string::npos) << final_;
+  EXPECT_NE(final_.find("\"error\": 0.01"), std::string::npos) << final_;
+  const std::string mixed = dry({"--quality", "final", "--bounces", "0", "--error", "0.25"});
+  EXPECT_NE(mixed.find("\"bounces\": 0"), std::string::npos) << mixed;
+  EXPECT_NE(mixed.find("\"error\": 0.25"), std::string::npos) << mixed;
+}
+
 TEST(Render, ChosenLayersAreTheOnlyOnes) {
   const Folder folder;
   ASSERT_EQ(run_sateen(tiny({"-o", "a.exr", "--aov", "N,samples"}), {folder.path}).code, 0);

@@ -39,7 +39,7 @@ TEST(StudyCommand, WritesTablesPlotsAndAPageThatStandsAlone) {
                                    "18", "--seeds", "2", "-s", "16", "-o", "out"},
                                   {folder.path});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(has(run.out, "mis-compensated over uniform, equal CPU time, geometric mean of 1 scene")) << run.out;
+  EXPECT_TRUE(has(run.out, "auto over uniform, equal CPU time, geometric mean of 1 scene")) << run.out;
   EXPECT_TRUE(has(run.out, "table over uniform, 16 samples each, linen_plain in constant white light")) << run.out;
   const std::string csv = read_text(folder / "out/study.csv");
   EXPECT_EQ(csv.rfind("look,light,bounces,strategy,samples,seed,cpu_seconds,mse,relative_mse\n", 0), 0u);

@@ -43,6 +43,11 @@ TEST(Usage, AMisspeltValueIsAnsweredWithTheNearestOne) {
       "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
 }
 
+TEST(Usage, AnUnknownQualityIsAnsweredWithTheNearestOne) {
+  expect_refused(run_sateen({"render", "--quality", "fnial"}), 2,
+                 "error: there is no quality fnial\n  help: did you mean final?\n");
+}
+
 TEST(Usage, AFlagWithoutItsValueSaysWhatItWants) {
   expect_refused(run_sateen({"render", "--look"}), 2, "error: --look wants its value: NAME|FILE\n" + render_usage);
 }
