@@ -151,8 +151,29 @@ struct FloatErrors {
        above_1e5 = 0;  ///< the last two from 0.6 degrees over the horizon up
 };
 
-// Relative error below 1e-3, but for `slack` of the view's peak.
-void compare_float(const Look& look, Random& random, int views, int lights, double slack, FloatErrors& errors) {
+// Largest change of F when both directions are turned by the rounding of a float, 1.2e-7 rad. Where a thread shows
+// the view nothing but a ten-thousandth of a degree of itself, that is more than 1e-3 of F, and no float can do
+// better.
+double condition(const Threads<double>& oracle, const Vec3d& wo, const Vec3d& wi, const Look& look, double truth) {
+  constexpr double rounding = 1.2e-7;
+  const auto view = std::make_unique<ThreadView<double>>();
+  double change = 0;
+  for (const double x : {-rounding, rounding})
+    for (const double y : {-rounding, rounding})
+      for (const double side : {-1.0, 1.0}) {
+        prepare_view<double>(oracle, wo.x + x, wo.y + y, std::max(wo.z + x, 1e-9), *view);
+        const double f =
+            sums(scatter<double>(oracle, *view, wi.x + side * x, wi.y + side * y, std::max(wi.z + side * x, 1e-9)))
+                .total(look);
+        change = std::max(change, std::abs(f - truth));
+      }
+  return change;
+}
+
+// Relative error below 1e-3, but for `slack` of the view's peak and, for looks that nobody would make, four times the
+// condition above. What no float can state, below 1e-36, does not count.
+void compare_float(const Look& look, Random& random, int views, int lights, double slack, bool conditioned,
+                   FloatErrors& errors) {
   const Curves curves = curves_of(look);
   const Threads<float> threads = compile_threads<float>(look, curves.warp, curves.weft);
   const Threads<double> oracle = compile_threads<double>(look, curves.warp, curves.weft);
@@ -166,6 +187,7 @@ void compare_float(const Look& look, Random& random, int views, int lights, doub
     struct Value {
       double found, truth;
       bool off_horizon;
+      Vec3d wi;
     };
     std::vector<Value> values;
     double peak = 0;
@@ -174,18 +196,20 @@ void compare_float(const Look& look, Random& random, int views, int lights, doub
       const Vec3d w = exact(wi);
       values.push_back({sums(scatter<float>(threads, *view, wi.x, wi.y, wi.z)).total(look),
                         sums(scatter<double>(oracle, *oracle_view, w.x, w.y, w.z)).total(look),
-                        std::min(wi.z, wo.z) > 0.01f});
+                        std::min(wi.z, wo.z) > 0.01f, w});
       peak = std::max(peak, values.back().truth);
     }
-    for (const auto& [found, truth, off_horizon] : values) {
-      if (!(truth > 1e-6 * peak)) continue;
+    for (const auto& [found, truth, off_horizon, w] : values) {
+      if (!(truth > 1e-6 * peak) || truth < 1e-36) continue;
       const double error = std::abs(found - truth) / truth;
       errors.worst = std::max(errors.worst, error);
       ++errors.pairs;
       errors.off_horizon += off_horizon;
       errors.above_1e5 += off_horizon && error > 1e-5;
       errors.above_1e3 += error > 1e-3;
-      EXPECT_LT(std::abs(found - truth), 1e-3 * truth + slack * peak)
+      double allowed = 1e-3 * truth + slack * peak;
+      if (conditioned && error > 1e-3) allowed += 4 * condition(oracle, o, w, look, truth);
+      EXPECT_LT(std::abs(found - truth), allowed)
           << look.name << ", view " << wo << ": " << found << " for " << truth << ", peak " << peak;
     }
   }
@@ -199,7 +223,7 @@ TEST(FloatKernel, AgreesWithTheSameKernelInDouble) {
   FloatErrors all;
   for (const Look& look : all_looks()) {
     FloatErrors errors;
-    compare_float(look, random, long_tests() ? 2000 : 60, 200, 1e-7, errors);
+    compare_float(look, random, long_tests() ? 2000 : 60, 200, 1e-7, false, errors);
     printf("float against double, %-32s worst %.2e, above 1e-5: %.4f %%\n", look.name.c_str(), errors.worst,
            100.0 * double(errors.above_1e5) / double(errors.off_horizon));
     all.pairs += errors.pairs;
@@ -219,7 +243,7 @@ TEST(FloatKernel, AgreesWithTheSameKernelInDoubleForRandomLooks) {
   for (int i = 0; i < (long_tests() ? 2000 : 100); ++i) {
     const Look look = random_look(random, i % 4 == 0);
     try {
-      compare_float(look, random, 10, 60, 1e-5, errors);
+      compare_float(look, random, 10, 60, 1e-5, true, errors);
     } catch (const InputError&) {  // more tangents than possible: said so by the compiler of the look
     }
   }
