@@ -127,7 +127,8 @@ std::vector<Bar> study_bars(const StudyResult& result) {
     std::vector<int> scenes;
     for (int i = 0; i < int(result.scenes.size()); ++i)
       if (result.scenes[size_t(i)].all_strategies && result.scenes[size_t(i)].finished &&
-          mse_at_time(result, i, below, common_time(result, i), Measure::relative) > 0)
+          mse_at_time(result, i, below, common_time(result, i), Measure::relative) > 0 &&
+          mse_at_time(result, i, result.ours, common_time(result, i), Measure::relative) > 0)
         scenes.push_back(i);
     const int count = int(scenes.size());
     if (count == 0) return;

@@ -208,6 +208,8 @@ class Study {
     const std::map<Strategy, double> price = prices(scene);
     for (const Strategy strategy : all_strategies()) {
       const int below = power_below(price.at(Strategy::mis_compensated) * at_equal_time / price.at(strategy));
+      // What a mean sample costs is known less well where samples are dealt out by error.
+      if (strategy == Strategy::automatic) add(strategy, std::max(below / 2, replicates));
       add(strategy, below);
       add(strategy, 2 * below);
     }

@@ -57,18 +57,20 @@ Table ratio_table(const StudyResult& result) {
       table.head.push_back(name);
     }
   std::vector<double> logs(others.size(), 0.0);
+  std::vector<int> known(others.size(), 0);
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     if (!is_compared(result.scenes[size_t(i)])) continue;
     std::vector<std::string> row{result.scenes[size_t(i)].label()};
     for (size_t k = 0; k < others.size(); ++k) {
       const Ratio ratio = equal_time_ratio(result, i, result.ours, others[k], Measure::relative);
       row.push_back(ratio.known ? number_text(ratio.interval.value) : "-");
-      logs[k] += ratio.known ? std::log(ratio.interval.value) : NAN;
+      if (ratio.known) logs[k] += std::log(ratio.interval.value), ++known[k];
     }
     table.rows.push_back(row);
   }
   std::vector<std::string> mean{"geometric mean"};
-  for (const double sum : logs) mean.push_back(number_text(std::exp(sum / double(table.rows.size()))));
+  for (size_t k = 0; k < others.size(); ++k)
+    mean.push_back(known[k] > 0 ? number_text(std::exp(logs[k] / known[k])) : "-");
   if (!table.rows.empty()) table.rows.push_back(mean);
   return table;
 }

@@ -56,6 +56,15 @@ TEST(StudyAnalysis, EqualTimeGivesTheCheapStrategyMoreSamples) {
   EXPECT_FALSE(equal_time_ratio(study, 0, Strategy::mis, Strategy::uniform, Measure::relative).known);
 }
 
+TEST(StudyAnalysis, ASceneWhereOursIsNotKnownAtTheCommonTimePassesNoBar) {
+  // Ours costs so much that its measured numbers lie far beyond the common time.
+  std::vector<Law> laws = plain;
+  laws.push_back({Strategy::automatic, 0.001, 1, 100});
+  StudyResult study = made_study(laws, {"overcast"});
+  study.ours = Strategy::automatic;
+  for (const Bar& bar : study_bars(study)) EXPECT_EQ(bar.what.find("auto"), std::string::npos) << bar.what;
+}
+
 TEST(StudyAnalysis, BetweenMeasuredNumbersTheLineInLogarithmsIsUsed) {
   StudyResult study = made_study(plain, {"overcast"});
   const double time = 24;  // uniform: 24 samples, between 16 and 32
