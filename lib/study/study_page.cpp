@@ -33,8 +33,10 @@ std::string summary(const StudyResult& result) {
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     const Winner winner = scene_winner(result, i, Measure::relative);
     if (!result.scenes[size_t(i)].all_strategies || !winner.known) continue;
+    const Ratio ratio = equal_time_ratio(result, i, result.ours, winner.strategy, Measure::relative);
+    if (!ratio.known) continue;
     ++scenes;
-    won += equal_time_ratio(result, i, result.ours, winner.strategy, Measure::relative).interval.value < 1;
+    won += ratio.interval.value < 1;
   }
   return fmt::format(
       "{} of {} bars are passed. The program's own choice, {}, has less error at equal time than any fixed "
