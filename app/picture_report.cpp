@@ -132,19 +132,12 @@ PictureJob make_job(const PictureFlags& flags, const SceneReport& report, const 
   PictureJob job;
   job.scene = flags.scene;
   job.render = flags.render;
+  // A question of the scene alone and never of the stop rules, so that ranges of samples of one picture, a resumed
+  // one and a longer one agree.
   if (flags.render.light.strategy == Strategy::automatic) {
-    const StopRules& stop = flags.render.stop;
-    job.render.light.strategy = LightSettings().strategy;
-    // Below that the pilot would cost more than it saves.
-    constexpr int least_samples = 32;
-    if (stop.spp == 0 || stop.spp >= least_samples) {
-      const StrategyChoice choice =
-          choose_strategy(scene, flags.render.light, flags.render.seed, flags.render.threads);
-      job.render.light.strategy = choice.strategy;
-      job.strategy_reason = choice.reason;
-    } else {
-      job.strategy_reason = fmt::format("{}: too few samples for a pilot", strategy_name(job.render.light.strategy));
-    }
+    const StrategyChoice choice = choose_strategy(scene, flags.render.light, flags.render.seed, flags.render.threads);
+    job.render.light.strategy = choice.strategy;
+    job.strategy_reason = choice.reason;
   }
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);

@@ -92,6 +92,22 @@ TEST(Render, AQualityAsksForItsErrorAndBouncesWhereTheCommandLineDoesNot) {
   EXPECT_NE(mixed.find("\"error\": 0.25"), std::string::npos) << mixed;
 }
 
+TEST(Render, TheChosenStrategyDoesNotDependOnTheNumberOfSamples) {
+  const Folder folder;
+  // The pilot takes another strategy than the usual one here.
+  const auto picture = [&](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"render", "-l", "crimson_velvet", "-r", "64", "36", "-q", "--progress", "none"});
+    return run_sateen(flags, {folder.path});
+  };
+  ASSERT_EQ(picture({"-s", "16", "-o", "a.png", "--checkpoint", "a.cp"}).code, 0);
+  ASSERT_EQ(picture({"-s", "48", "--samples-from", "16", "-o", "b.png", "--checkpoint", "b.cp"}).code, 0);
+  const Finished merged = run_sateen({"merge", "a.cp", "b.cp", "-o", "m.exr"}, {folder.path});
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(text_of(sateen::read_attributes(folder / "m.exr"), "strategy"), "resampled");
+  const Finished resumed = picture({"-s", "64", "-o", "c.png", "--resume", "a.cp"});
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+}
+
 TEST(Render, ChosenLayersAreTheOnlyOnes) {
   const Folder folder;
   ASSERT_EQ(run_sateen(tiny({"-o", "a.exr", "--aov", "N,samples"}), {folder.path}).code, 0);
