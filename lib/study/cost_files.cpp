@@ -2,13 +2,11 @@
 
 #include <cmath>
 
-#include "base/error.h"
-#include "base/files.h"
 #include "base/parallel.h"
-#include "image/file.h"
 #include "look/json_writer.h"
 #include "report/page.h"
 #include "study/cost_report.h"
+#include "study/report_folder.h"
 
 namespace sateen {
 
@@ -158,33 +156,18 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
 
 std::vector<std::string> write_cost(const std::filesystem::path& folder, const CostResult& result,
                                     const std::string& version, const std::string& command_line) {
-  std::error_code error;
-  std::filesystem::create_directories(folder / "pictures", error);
-  if (error) throw OperationError(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
-  std::vector<std::string> names;
-  const auto text = [&](const std::string& name, const std::string& content) {
-    write_text_whole(folder / name, content);
-    names.push_back(name);
-  };
-  const auto picture = [&](const std::string& name, const Image& image) {
-    write_display_image(folder / "pictures" / name, image);
-    names.push_back("pictures/" + name);
-  };
-  text("cost.csv", table_csv(csv_table(result)));
-  text("cost.json", cost_json(result, version, command_line));
-  text("cost.txt", cost_text(result));
-  for (const NamedPlot& plot : cost_plots(result)) {
-    write_plot(folder / plot.name, plot.sheet);
-    names.push_back(plot.name + ".svg");
-    names.push_back(plot.name + ".png");
-  }
+  ReportFolder report(folder);
+  report.text("cost.csv", table_csv(csv_table(result)));
+  report.text("cost.json", cost_json(result, version, command_line));
+  report.text("cost.txt", cost_text(result));
+  report.plots(cost_plots(result));
   for (size_t i = 0; i < result.ladder_pictures.size(); ++i)
-    picture(fmt::format("n_{}.jpg", i), result.ladder_pictures[i].second);
+    report.picture(fmt::format("n_{}.jpg", i), result.ladder_pictures[i].second);
   for (size_t i = 0; i < result.lists.size(); ++i)
     for (size_t k = 0; k < result.lists[i].prices.size(); ++k)
-      picture(file_of(i, k), result.lists[i].prices[k].picture);
-  text("index.html", cost_page(result, folder / "pictures"));
-  return names;
+      report.picture(file_of(i, k), result.lists[i].prices[k].picture);
+  report.text("index.html", cost_page(result, folder / "pictures"));
+  return report.names;
 }
 
 }  // namespace sateen

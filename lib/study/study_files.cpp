@@ -2,10 +2,8 @@
 
 #include <map>
 
-#include "base/error.h"
-#include "base/files.h"
-#include "image/file.h"
 #include "look/json_writer.h"
+#include "study/report_folder.h"
 #include "study/study_report.h"
 
 namespace sateen {
@@ -74,29 +72,15 @@ std::string study_json(const StudyResult& result, const std::string& version, co
 
 std::vector<std::string> write_study(const std::filesystem::path& folder, const StudyResult& result,
                                      const std::string& version, const std::string& command_line) {
-  std::error_code error;
-  std::filesystem::create_directories(folder / "pictures", error);
-  if (error) throw OperationError(fmt::format("{} cannot be made: {}", folder.string(), error.message()));
-  std::vector<std::string> names;
-  const auto text = [&](const std::string& name, const std::string& content) {
-    write_text_whole(folder / name, content);
-    names.push_back(name);
-  };
-  text("study.csv", table_csv(run_table(result)));
-  text("study.json", study_json(result, version, command_line));
-  text("study.txt", study_text(result));
-  for (const NamedPlot& plot : study_plots(result)) {
-    write_plot(folder / plot.name, plot.sheet);
-    names.push_back(plot.name + ".svg");
-    names.push_back(plot.name + ".png");
-  }
-  for (size_t i = 0; i < result.pictures.size(); ++i) {
-    const std::string name = fmt::format("pictures/{:02}.jpg", i);
-    write_display_image(folder / name, result.pictures[i].image);
-    names.push_back(name);
-  }
-  text("index.html", study_page(result, folder / "pictures"));
-  return names;
+  ReportFolder report(folder);
+  report.text("study.csv", table_csv(run_table(result)));
+  report.text("study.json", study_json(result, version, command_line));
+  report.text("study.txt", study_text(result));
+  report.plots(study_plots(result));
+  for (size_t i = 0; i < result.pictures.size(); ++i)
+    report.picture(fmt::format("{:02}.jpg", i), result.pictures[i].image);
+  report.text("index.html", study_page(result, folder / "pictures"));
+  return report.names;
 }
 
 }  // namespace sateen
