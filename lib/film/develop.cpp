@@ -59,7 +59,12 @@ std::vector<ImageLayer> develop_layers(const Film& film) {
       all.push_back(layer(film, name, rgb, [&](P p, L l, float* to) { put(mean(sum(l), p.samples), to); }));
     };
     light("direct", [](L l) { return l.surface[0] + l.surface[1] + l.volume[0] + l.volume[1]; });
-    light("indirect", [](L l) { return l.indirect; });
+    light("indirect", [](L l) { return l.indirect.total(); });
+    light("indirect_1", [](L l) { return l.indirect.bounce[0]; });
+    light("indirect_2", [](L l) { return l.indirect.bounce[1]; });
+    light("indirect_3", [](L l) { return l.indirect.bounce[2]; });
+    light("indirect_more", [](L l) { return l.indirect.bounce[3]; });
+    light("through_gaps", [](L l) { return l.through_gaps; });
     light("backdrop", [](L l) { return l.backdrop; });
     light("surface", [](L l) { return l.surface[0] + l.surface[1]; });
     light("volume", [](L l) { return l.volume[0] + l.volume[1]; });

@@ -59,7 +59,8 @@ void add_film(Film& film, const Film& other) {
       to.surface[family] += from.surface[family];
       to.volume[family] += from.volume[family];
     }
-    to.indirect += from.indirect;
+    for (int b = 0; b < tracked_bounces; ++b) to.indirect.bounce[b] += from.indirect.bounce[b];
+    to.through_gaps += from.through_gaps;
     to.backdrop += from.backdrop;
     to.albedo += from.albedo;
     to.normal += from.normal;

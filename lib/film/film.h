@@ -21,9 +21,20 @@ struct FilmPixel {
   std::uint64_t samples = 0;
 };
 
+/// Light by bounce; the last entry holds that of its own bounce and of all further ones.
+inline constexpr int tracked_bounces = 4;
+struct BounceLight {
+  Color bounce[tracked_bounces] = {Color(0), Color(0), Color(0), Color(0)};
+
+  Color total() const { return bounce[0] + bounce[1] + bounce[2] + bounce[3]; }
+};
+
 /// Sums of the layers beside the beauty; kept only where asked for.
 struct LayerPixel {
-  Color surface[2] = {Color(0), Color(0)}, volume[2] = {Color(0), Color(0)}, indirect{0, 0, 0}, backdrop{0, 0, 0};
+  // Light, in parts that add up to the beauty.
+  Color surface[2] = {Color(0), Color(0)}, volume[2] = {Color(0), Color(0)};  ///< direct, of warp and weft
+  BounceLight indirect;
+  Color through_gaps{0, 0, 0}, backdrop{0, 0, 0};
   Color albedo{0, 0, 0};
   Vec3 normal{0, 0, 0}, position{0, 0, 0}, warp{0, 0, 0};
   Vec2 uv{0, 0};

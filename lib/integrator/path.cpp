@@ -39,11 +39,12 @@ LobeLight direct_light(const Scene& scene, const ClothPoint& point, const LightS
   return light;
 }
 
-/// Light after two and more meetings: from `point` on.
-Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoint point, std::uint32_t seed,
-                     const SampleId& id, PathScratch& scratch) {
+/// Light after two and more meetings, from `point` on, by bounce.
+BounceLight indirect_light(const Scene& scene, const LightSettings& settings, ClothPoint point, std::uint32_t seed,
+                           const SampleId& id, PathScratch& scratch) {
   const FabricSampler sampler = strategy_sampler(settings.strategy);
-  Color light(0), throughput(1);
+  BounceLight light;
+  Color throughput(1);
   for (int bounce = 1; bounce <= settings.bounces; ++bounce) {
     // The numbers of the vertex that is left may also have served its direct light, which is added to this. Those of
     // the vertex that is met must be others: its light is multiplied by what was drawn on the way to it.
@@ -93,7 +94,11 @@ Color indirect_light(const Scene& scene, const LightSettings& settings, ClothPoi
     throughput /= 1 - point.fabric->gap;
 
     const LobeLight direct = direct_light(scene, point, settings, met_batch, scratch);
-    if (keep(direct, scratch.counts)) light += throughput * direct.total();
+    const Color sent = throughput * direct.total();
+    if (finite(sent))
+      light.bounce[std::min(bounce, tracked_bounces) - 1] += sent;
+    else
+      ++scratch.counts.non_finite;
   }
   return light;
 }
@@ -105,22 +110,6 @@ void see_backdrop(const Scene& scene, const Vec3& direction, float passed, Camer
   else if (scene.backdrop == Backdrop::plain)
     out.backdrop = scene.backdrop_color * passed;
   out.alpha = scene.backdrop == Backdrop::none ? 1 - passed : 1;
-}
-
-/// Adds the light of one layer of cloth, of which `passed` reaches the eye.
-void add_layer(const Scene& scene, const LightSettings& settings, const ClothPoint& point, const LobeLight& direct,
-               std::uint32_t seed, const SampleId& id, float passed, PathScratch& scratch, CameraSample& out) {
-  if (keep(direct, scratch.counts))
-    for (int family = 0; family < 2; ++family) {
-      out.direct.surface[family] += direct.surface[family] * passed;
-      out.direct.volume[family] += direct.volume[family] * passed;
-    }
-  if (settings.bounces == 0) return;
-  const Color indirect = indirect_light(scene, settings, point, seed, id, scratch) * passed;
-  if (finite(indirect))
-    out.indirect += indirect;
-  else
-    ++scratch.counts.non_finite;
 }
 
 /// What is seen through the gaps of the first layer of sheer cloth.
@@ -135,7 +124,9 @@ void look_through(const Scene& scene, const LightSettings& settings, ClothPoint 
     point = cloth_point(scene, *hit, ray.direction);
     // Another layer gets numbers of its own.
     const LobeLight direct = direct_light(scene, point, settings, alone(seed, id, -layer), scratch);
-    add_layer(scene, settings, point, direct, seed, id, passed, scratch, out);
+    if (keep(direct, scratch.counts)) out.through_gaps += direct.total() * passed;
+    if (settings.bounces > 0)
+      out.through_gaps += indirect_light(scene, settings, point, seed, id, scratch).total() * passed;
     passed *= point.fabric->gap;
   }
 }
@@ -189,7 +180,8 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
     sample.wo = point.wo;
     sample.back = scene.back && point.fabric == &*scene.back;
     sample.alpha = 1;
-    add_layer(scene, settings, point, direct[n], seed, samples[k], 1, scratch, sample);
+    if (keep(direct[n], scratch.counts)) sample.direct = direct[n];
+    if (settings.bounces > 0) sample.indirect = indirect_light(scene, settings, point, seed, samples[k], scratch);
     if (point.fabric->gap > 0) look_through(scene, settings, point, rays[k], seed, samples[k], scratch, sample);
   }
 }

@@ -1,13 +1,14 @@
 #pragma once
+#include "film/film.h"
 #include "integrator/direct.h"
 
 namespace sateen {
 
-/// What one camera sample brings to its pixel, working space. Light reaches the eye through `opacity` of the cloth
-/// in front; where there are no gaps that is 1 on the cloth and 0 beside it.
+/// What one camera sample brings to its pixel, working space, in parts that add up to it.
 struct CameraSample {
-  LobeLight direct;         ///< environment light after one meeting with the cloth
-  Color indirect{0, 0, 0};  ///< after two and more
+  LobeLight direct;             ///< environment light after one meeting with the first layer
+  BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth
+  Color through_gaps{0, 0, 0};  ///< light of the layers behind the first, seen through its gaps
   Color backdrop{0, 0, 0};
   float alpha = 0;   ///< 1 where the backdrop is seen, else the cloth's opacity
   bool hit = false;  ///< the values below are those of the first surface met
@@ -16,7 +17,7 @@ struct CameraSample {
   Vec3 wo{0, 0, 1};   ///< cloth frame
   bool back = false;  ///< the cloth's back is seen
 
-  Color total() const { return direct.total() + indirect + backdrop; }
+  Color total() const { return direct.total() + indirect.total() + through_gaps + backdrop; }
 };
 
 /// Up to batch_size samples of one picture, side by side; those that run close together, as in one pixel, gain most.

@@ -16,7 +16,7 @@ namespace sateen {
 namespace {
 
 // The number counts up with every change of what follows.
-constexpr char magic[16] = "sateen render 1";
+constexpr char magic[16] = "sateen render 2";
 constexpr std::uint64_t largest_file = std::uint64_t(1) << 36;
 
 /// Values to bytes and back, in one order for both, so that writing and reading cannot differ.

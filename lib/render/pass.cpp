@@ -18,7 +18,8 @@ void add_layers(LayerPixel& layer, const CameraSample& s, const AlbedoMaps& albe
     layer.surface[family] += s.direct.surface[family];
     layer.volume[family] += s.direct.volume[family];
   }
-  layer.indirect += s.indirect;
+  for (int b = 0; b < tracked_bounces; ++b) layer.indirect.bounce[b] += s.indirect.bounce[b];
+  layer.through_gaps += s.through_gaps;
   layer.backdrop += s.backdrop;
   if (!s.hit) return;
   layer.albedo += look_up(s.back ? albedo.back : albedo.front, s.wo);

@@ -239,8 +239,9 @@ Film random_film() {
     const int n = int(i % 9);  // the first, the tenth ... have none
     for (int k = 0; k < n; ++k) {
       Color total(0);
-      for (Color* part : {&layer.surface[0], &layer.surface[1], &layer.volume[0], &layer.volume[1], &layer.indirect,
-                          &layer.backdrop}) {
+      for (Color* part : {&layer.surface[0], &layer.surface[1], &layer.volume[0], &layer.volume[1],
+                          &layer.indirect.bounce[0], &layer.indirect.bounce[1], &layer.indirect.bounce[2], &layer.indirect.bounce[3],
+                          &layer.through_gaps, &layer.backdrop}) {
         const Color c = color();
         *part += c;
         total += c;
@@ -277,8 +278,9 @@ void expect_sum(const std::vector<ImageLayer>& all, const std::string& whole, co
 
 TEST(Layers, AddUpToTheBeauty) {
   const std::vector<ImageLayer> all = develop_layers(random_film());
-  expect_sum(all, "", {"surface", "volume", "indirect", "backdrop"});
-  expect_sum(all, "", {"direct", "indirect", "backdrop"});
+  expect_sum(all, "", {"surface", "volume", "indirect", "through_gaps", "backdrop"});
+  expect_sum(all, "", {"direct", "indirect", "through_gaps", "backdrop"});
+  expect_sum(all, "indirect", {"indirect_1", "indirect_2", "indirect_3", "indirect_more"});
   expect_sum(all, "direct", {"warp_surface", "warp_volume", "weft_surface", "weft_volume"});
   expect_sum(all, "surface", {"warp_surface", "weft_surface"});
   expect_sum(all, "volume", {"warp_volume", "weft_volume"});

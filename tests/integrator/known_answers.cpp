@@ -71,7 +71,7 @@ Estimate estimate(const Scene& scene, const LightSettings& light, int samples) {
       sum += Vec3d(s.total());
       out.alpha += double(s.alpha) / (samples * batches);
       out.backdrop += Vec3d(s.backdrop) / double(samples * batches);
-      out.indirect += Vec3d(s.indirect) / double(samples * batches);
+      out.indirect += Vec3d(s.indirect.total()) / double(samples * batches);
     }
     for (int c = 0; c < 3; ++c) out.channel[c].add(sum[c] / samples);
   }

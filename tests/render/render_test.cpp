@@ -127,18 +127,23 @@ TEST(RenderedLayers, AddUpToTheBeauty) {
   how.light.bounces = 2;
   Film film(32, 24, true);
   render(scene, how, film);
-  double indirect = 0, through_gaps = 0;
+  double indirect = 0, later = 0, through_gaps = 0;
   for (size_t i = 0; i < film.pixels.size(); ++i) {
     const LayerPixel& l = film.layers[i];
-    const Color sum = l.surface[0] + l.surface[1] + l.volume[0] + l.volume[1] + l.indirect + l.backdrop;
+    const Color light =
+        l.surface[0] + l.surface[1] + l.volume[0] + l.volume[1] + l.indirect.total() + l.through_gaps + l.backdrop;
     Vec3d beauty(0);
     for (const Vec3d& c : film.pixels[i].beauty) beauty += c;
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(sum[c]), beauty[c], 1e-5 * (1 + beauty[c])) << i;
-    indirect += double(mean_component(l.indirect));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(light[c]), beauty[c], 1e-5 * (1 + beauty[c])) << i;
+    indirect += double(mean_component(l.indirect.bounce[0]));
+    later += double(mean_component(l.indirect.bounce[1]));
+    EXPECT_EQ(l.indirect.bounce[2], Color(0)) << "two bounces were asked for";
+    through_gaps += double(mean_component(l.through_gaps));
     if (l.hits == film.pixels[i].samples) through_gaps += double(mean_component(l.backdrop));
     EXPECT_LE(l.hits, film.pixels[i].samples);
   }
-  EXPECT_GT(indirect, 0);
+  EXPECT_GT(indirect, later);
+  EXPECT_GT(later, 0);
   EXPECT_GT(through_gaps, 0) << "linen has gaps";
 }
 
