@@ -14,6 +14,7 @@ int run_render(const std::vector<std::string>& words);
 int run_merge(const std::vector<std::string>& words);
 int run_turntable(const std::vector<std::string>& words);
 int run_study(const std::vector<std::string>& words);
+int run_plan(const std::vector<std::string>& words);
 int run_cost(const std::vector<std::string>& words);
 int run_check(const std::vector<std::string>& words);
 int run_look(const std::vector<std::string>& words);

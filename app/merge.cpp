@@ -39,6 +39,7 @@ int run_merge(const std::vector<std::string>& words) {
   read_render_flags(sum.words, flags);
   PictureFlags& p = flags.picture;
   p.outputs = outputs;
+  keep_effects(p, sum.facts);
   const ColorManager colors(p.ocio, p.working);
   p.display = settle_display(p.display, colors);
   SceneReport report;

@@ -110,7 +110,7 @@ void add_quality(Command& c, PictureFlags& f) {
   c.number("--error", "E", stop.error, 1e-6, 100,
            "relative error of the picture, such as 0.02; its upper bound counts");
   c.text("--quality", "NAME", f.quality,
-         "draft, preview or final: --error 0.1, 0.04 or 0.01 with 0, 1 or 2 bounces, where these are not given; "
+         "draft, preview or final: --error 0.1, 0.04 or 0.01, and the effects that such an error calls for; "
          "sateen cost finds what suits your scene");
   c.custom(
       "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
@@ -123,8 +123,18 @@ void add_quality(Command& c, PictureFlags& f) {
                      fmt::join(strategy_names(), ", ")));
   c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
             fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));
-  c.integer("--bounces", "N", f.render.light.bounces, 0, 64, "light that meets cloth again (default: 0)");
-  c.text("--effects", "LIST", f.effects, "auto, all, none, or changes such as +bounces (default: auto)");
+  c.integer("--bounces", "N", f.render.light.bounces, 0, 64,
+            "how often light may meet cloth again (default: as often as the error asked for calls for)");
+  std::string names;
+  for (const EffectInfo& info : effect_list())
+    if (info.switchable) names += (names.empty() ? "" : ", ") + info.name;
+  c.text(
+      "--effects", "LIST", f.effects,
+      fmt::format("auto, all, none, and changes such as +interreflection,-gaps (default: auto, see sateen plan): {}",
+                  names));
+  c.flag(
+      "--verify-plan", f.verify_plan,
+      "checks on some pixels what every effect that the plan rules out would change, and fails where it is too much");
   c.flag("--strict", f.strict, "exit code 5 when a sample was not finite");
 }
 
@@ -171,40 +181,17 @@ ProgressStyle progress_style(const PictureFlags& f) {
   return error_is_terminal() ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
-// What can be switched today: light that meets cloth again. Shadows and gaps are always there.
-void settle_effects(const std::string& list, bool bounces_given, LightSettings& light) {
-  constexpr int all_bounces = 4;
-  const std::vector<std::string> known{"bounces"};
-  for (const std::string& word : split(list, ',')) {
-    if (word == "auto") continue;
-    const bool on = word == "all" || word[0] == '+', off = word == "none" || word[0] == '-';
-    const std::string name =
-        word == "all" || word == "none" ? "bounces" : word.substr(word.empty() || (!on && !off) ? 0 : 1);
-    if (!on && !off)
-      throw InputError(
-          fmt::format("--effects has {}, expected auto, all, none, or names with + or -", shown_name(word)),
-          word == "bounces" ? "did you mean +bounces?" : suggestion(word, {"auto", "all", "none"}));
-    if (name != "bounces")
-      throw InputError(fmt::format("there is no effect {}", shown_name(name)),
-                       "this version can switch bounces; self-shadowing and gaps are always on");
-    if (on && !bounces_given) light.bounces = all_bounces;
-    if (off) light.bounces = 0;
-  }
-}
-
-/// What a quality asks for where the command line does not. Its errors are those that `sateen cost` recommends for.
+/// The error that a quality asks for where the command line does not: those that `sateen cost` recommends for.
 struct Quality {
   std::string name;
   double error;
-  int bounces;
 };
-void settle_quality(const std::string& name, bool bounces_given, RenderSettings& render) {
-  static const std::vector<Quality> all{{"draft", 0.10, 0}, {"preview", 0.04, 1}, {"final", 0.01, 2}};
+void settle_quality(const std::string& name, RenderSettings& render) {
+  static const std::vector<Quality> all{{"draft", 0.10}, {"preview", 0.04}, {"final", 0.01}};
   if (name.empty()) return;
   for (const Quality& quality : all)
     if (quality.name == name) {
       if (render.stop.error == 0) render.stop.error = quality.error;
-      if (!bounces_given) render.light.bounces = quality.bounces;
       return;
     }
   throw InputError(fmt::format("there is no quality {}", shown_name(name)),
@@ -222,14 +209,21 @@ void add_picture_flags(Command& command, PictureFlags& flags) {
 void settle_picture_flags(const Command& command, PictureFlags& f, int default_spp) {
   voice.verbosity = f.quiet ? Verbosity::quiet : f.verbose ? Verbosity::detailed : Verbosity::normal;
   StopRules& stop = f.render.stop;
-  settle_quality(f.quality, command.given("--bounces"), f.render);
+  settle_quality(f.quality, f.render);
   const bool no_rule = stop.spp == 0 && stop.error == 0 && stop.seconds == 0;
   if (no_rule) stop.spp = default_spp;
   f.render.adaptive = command.given("--adaptive") ? f.adaptive : no_rule || stop.error > 0 || stop.seconds > 0;
   f.render.seed = std::uint32_t(f.seed);
   f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
-  settle_effects(f.effects, command.given("--bounces") || !f.quality.empty(), f.render.light);
+  f.switches = read_effects(f.effects);
+  if (command.given("--bounces")) {
+    f.switches.bounces = f.render.light.bounces;
+    const bool off = f.switches.named_off(Effect::interreflection), on = f.switches.named_on(Effect::interreflection);
+    if ((off && f.render.light.bounces > 0) || (on && f.render.light.bounces == 0))
+      throw InputError(
+          fmt::format("--bounces {} and --effects {} contradict each other", f.render.light.bounces, f.effects));
+  }
   f.layer_list = read_layers(f.layers);
   f.render.albedo_layer = std::find(f.layer_list.begin(), f.layer_list.end(), "albedo") != f.layer_list.end();
   f.progress = progress_style(f);
@@ -293,10 +287,6 @@ std::string shell_line(const std::vector<std::string>& words) {
     line += (line.empty() ? "" : " ") + (plain ? word : "'" + quoted + "'");
   }
   return line;
-}
-
-std::string effects_text(const LightSettings& light, bool gaps) {
-  return fmt::format("shadows{}{}", gaps ? ",gaps" : "", light.bounces > 0 ? ",bounces" : "");
 }
 
 }  // namespace sateen::app

@@ -19,9 +19,11 @@ struct PictureFlags {
   std::string ocio, working, stats, quality;
   std::string strategy = strategy_name(Strategy::automatic), effects = "auto", layers = "all";
   std::string progress_name = "auto";
-  bool strict = false, adaptive = false, dry_run = false, quiet = false, verbose = false;
+  bool verify_plan = false, bill = false, strict = false, adaptive = false, dry_run = false, quiet = false,
+       verbose = false;
   int seed = 1;
 
+  EffectSwitches switches;                        ///< settled from `effects` and --bounces
   std::vector<std::string> layer_list;            ///< settled from `layers`
   ProgressStyle progress = ProgressStyle::lines;  ///< settled from `progress_name`
 };
@@ -44,8 +46,5 @@ Color read_hex_color(const std::string& what, const std::string& text);
 
 /// The words of a command line, quoted for a shell where needed.
 std::string shell_line(const std::vector<std::string>& words);
-
-/// Names of the effects in force, for the metadata.
-std::string effects_text(const LightSettings& light, bool gaps);
 
 }  // namespace sateen::app

@@ -105,7 +105,12 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   w.member("strategy", strategy_name(job.render.light.strategy));
   if (!job.strategy_reason.empty()) w.member("strategy_reason", job.strategy_reason);
   w.member("effects", job.effects);
-  w.member("bounces", job.render.light.bounces).member("seed", job.render.seed);
+  w.key("plan").open_object();
+  write_plan(w, job.plan);
+  if (!job.verdicts.empty()) write_verdicts(w, job.verdicts);
+  w.close();
+  w.member("bounces", job.render.light.bounces).member("bounce_share", job.render.light.bounce_share);
+  w.member("seed", job.render.seed);
   w.member("adaptive", job.render.adaptive).member("samples_from", job.first_sample);
   w.member("threads", thread_count(job.render.threads));
   const StopRules& stop = job.render.stop;
@@ -127,27 +132,40 @@ void write_stats(const PictureFlags& flags, const std::string& json) {
   if (voice.json) print_result(json);
 }
 
-PictureJob make_job(const PictureFlags& flags, const SceneReport& report, const Scene& scene,
-                    const ColorManager& colors, const std::string& words) {
+PictureJob make_job(const PictureFlags& flags, const SceneReport& report, Scene& scene, const ColorManager& colors,
+                    const std::string& words) {
   PictureJob job;
   job.scene = flags.scene;
   job.render = flags.render;
+  job.plan = make_plan(scene, report.look, flags.switches, flags.render.stop.error, flags.render.light,
+                       flags.render.seed, flags.render.threads);
+  if (flags.verify_plan)
+    job.verdicts = verify_plan(scene, job.plan, flags.render.light, flags.render.seed, flags.render.threads);
+  apply_plan(job.plan, scene, job.render.light);
   // A question of the scene alone and never of the stop rules, so that ranges of samples of one picture, a resumed
   // one and a longer one agree.
   if (flags.render.light.strategy == Strategy::automatic) {
-    const StrategyChoice choice = choose_strategy(scene, flags.render.light, flags.render.seed, flags.render.threads);
+    const StrategyChoice choice = choose_strategy(scene, job.render.light, flags.render.seed, flags.render.threads);
     job.render.light.strategy = choice.strategy;
     job.strategy_reason = choice.reason;
   }
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;
-  job.effects = effects_text(flags.render.light, scene.has_gaps);
+  job.effects = effects_text(scene, job.render.light);
   job.color_config = colors.description();
   job.working_space = colors.working_space();
   job.version = SATEEN_VERSION;
   job.command_line = "sateen " + words;
   return job;
+}
+
+void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts) {
+  for (const Fact& fact : facts)
+    if (fact.name == "bounces" && !flags.switches.bounces)
+      flags.switches.bounces = read_integer("bounces", fact.value, 0, 64);
+    else if (fact.name == "bounce share")
+      flags.switches.bounce_share = float(read_number("bounce share", fact.value, 0.001, 1));
 }
 
 void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
@@ -160,6 +178,8 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
   print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
                            job.display.display, job.display.view));
   if (!job.strategy_reason.empty()) print_note(fmt::format("light sampled by {}", job.strategy_reason));
+  const PlannedEffect& bounces = job.plan.of(Effect::interreflection);
+  print_note(fmt::format("interreflection {}: {}", bounces.on ? "on" : "off", bounces.reason));
   print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
                            job.effects, job.render.seed, thread_count(job.render.threads)));
   print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",

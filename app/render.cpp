@@ -9,6 +9,7 @@
 #include "console.h"
 #include "exit_code.h"
 #include "picture_report.h"
+#include "plan_report.h"
 #include "render/checkpoint.h"
 #include "render/exposure.h"
 #include "signals.h"
@@ -33,6 +34,10 @@ void describe(Command& c) {
 }
 
 void add_going_on(Command& c, RenderFlags& f) {
+  c.flag(
+      "--bill", f.picture.bill,
+      "says what every effect cost in time and noise and what the picture would lose without it; a page beside the "
+      "first picture shows it");
   c.group("Going on");
   c.text("--checkpoint", "FILE", f.checkpoint,
          "keeps all sums there, every five minutes and at the end (a signal: beside the first picture without it)");
@@ -101,6 +106,32 @@ void start(Work& work) {
     throw InputError(fmt::format("{} holds no layers, which an EXR wants", f.resume), "add --aov none");
   print_note(fmt::format("{} goes on at {} samples a pixel", f.resume, state.course.samples));
 }
+/// Bills the effects of the picture that was rendered: into the JSON, and with --bill as a table and a page.
+void make_out_bill(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, const Scene& scene,
+                   const ColorManager& colors) {
+  BillSettings settings;
+  settings.display = job.display;
+  settings.exposure_ev = job.exposure_ev;
+  if (flags.bill) settings.columns = 128;
+  const Bill bill =
+      make_bill(scene, job.plan, job.render.light, settings, colors, job.render.seed, job.render.threads);
+  write_bill(w, bill);
+  if (!flags.bill) return;
+  if (!voice.json) print_result(table_text(bill_table(bill)));
+  const std::filesystem::path page = std::filesystem::path(flags.outputs[0]).replace_extension(".bill.html");
+  write_bill_page(page, bill, job.command_line);
+  print_note(fmt::format("wrote {}", page.string()));
+}
+
+/// A picture goes on with the effects that it began with, even where a tighter error calls for more.
+void warn_of_tighter_plan(const Plan& plan) {
+  const std::optional<Interval>& loss = plan.of(Effect::interreflection).loss;
+  if (!loss || plan.bounces >= tracked_bounces || loss->low <= plan_allowance * plan.error) return;
+  print_warning(fmt::format(
+      "an error of {:.3g} % calls for more than {} bounces, without which E is off by {:.3g} %; the picture "
+      "goes on as it began, and its error does not count that: render it anew to have it",
+      100 * plan.error, plan.bounces, 100 * loss->value));
+}
 }  // namespace
 
 bool read_render_flags(const std::vector<std::string>& words, RenderFlags& flags) {
@@ -150,6 +181,7 @@ int run_render(const std::vector<std::string>& words) {
     if (!all.adaptive_given)
       for (const Fact& fact : begun.facts)
         if (fact.name == "adaptive") flags.render.adaptive = fact.value == "yes";
+    keep_effects(flags, begun.facts);
   }
 
   const ColorManager colors(flags.ocio, flags.working);
@@ -159,7 +191,9 @@ int run_render(const std::vector<std::string>& words) {
   report.metered_ev = metered_towards(scene.environment, flags.scene.camera.azimuth_deg, flags.scene.environment_ev);
   PictureJob job = make_job(flags, report, scene, colors, "render " + shell_line(words));
   job.first_sample = all.first_sample;
+  if (!all.resume.empty()) warn_of_tighter_plan(job.plan);
   print_scene(flags, job, report);
+  if (!report_verdicts(job.plan, job.verdicts)) return failed;
   Work work{all, words, job, report, colors, std::move(begun)};
   start(work);
   if (flags.dry_run) return report_dry_run(flags, job, report);
@@ -198,6 +232,7 @@ int run_render(const std::vector<std::string>& words) {
   w.open_object();
   write_job(w, flags, job, report);
   write_result(w, result, written);
+  if ((flags.bill || !flags.stats.empty()) && !stopped) make_out_bill(w, flags, job, scene, colors);
   if (!checkpoint.empty()) w.member("checkpoint", checkpoint);
   write_stats(flags, w.member("exit_code", code).close().text());
   return code;

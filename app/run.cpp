@@ -22,6 +22,7 @@ const std::vector<Subcommand>& subcommands() {
       {"render", "one picture of a cloth", run_render},
       {"merge", "joins renders of different samples of one picture", run_merge},
       {"turntable", "an orbit: frames and a sheet of them", run_turntable},
+      {"plan", "which effects a picture is rendered with, and why", run_plan},
       {"cost", "what accuracy costs in time, and what approximations give away", run_cost},
       {"study", "measures the sampling strategies against each other", run_study},
       {"look", "looks: list, check, resolve, diff, schema", run_look},

@@ -42,6 +42,10 @@ void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, std::
       shadow[n].direction = direction;
       result[n++] = &seen[k][j];
     }
+  if (!scene.self_shadowing) {
+    for (size_t k = 0; k < n; ++k) *result[k] = 1;
+    return;
+  }
   counts.shadow += std::int64_t(n);
   if (counts.log) counts.log->insert(counts.log->end(), shadow.begin(), shadow.begin() + std::ptrdiff_t(n));
   if (scene.has_gaps) {

@@ -20,6 +20,13 @@ struct RayCounts {
   std::vector<Ray>* log = nullptr;  ///< where given, every shadow ray is kept here (the benchmark traces them bare)
   std::int64_t camera = 0, shadow = 0, bounce = 0;
   std::int64_t non_finite = 0;  ///< estimates that were not finite and were dropped: a fault, reported
+
+  void add(const RayCounts& more) {
+    camera += more.camera;
+    shadow += more.shadow;
+    bounce += more.bounce;
+    non_finite += more.non_finite;
+  }
 };
 
 /// What a thread needs to trace; large, so one is kept a thread.

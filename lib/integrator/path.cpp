@@ -112,9 +112,9 @@ void see_backdrop(const Scene& scene, const Vec3& direction, float passed, Camer
   out.alpha = scene.backdrop == Backdrop::none ? 1 - passed : 1;
 }
 
-/// What is seen through the gaps of the first layer of sheer cloth.
+/// What is seen through the gaps of the first layer of sheer cloth; `follow` is the weight of its indirect light.
 void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, Ray ray, std::uint32_t seed,
-                  const SampleId& id, PathScratch& scratch, CameraSample& out) {
+                  const SampleId& id, float follow, PathScratch& scratch, CameraSample& out) {
   float passed = point.fabric->gap;
   for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
     ray.origin = offset_origin(point.surface, ray.direction);
@@ -125,8 +125,8 @@ void look_through(const Scene& scene, const LightSettings& settings, ClothPoint 
     // Another layer gets numbers of its own.
     const LobeLight direct = direct_light(scene, point, settings, alone(seed, id, -layer), scratch);
     if (keep(direct, scratch.counts)) out.through_gaps += direct.total() * passed;
-    if (settings.bounces > 0)
-      out.through_gaps += indirect_light(scene, settings, point, seed, id, scratch).total() * passed;
+    if (follow > 0)
+      out.through_gaps += indirect_light(scene, settings, point, seed, id, scratch).total() * (passed * follow);
     passed *= point.fabric->gap;
   }
 }
@@ -168,6 +168,8 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
   if (met.count == 0) return;
   std::array<LobeLight, batch_size> direct;
   direct_light(scene, {points.data(), size_t(met.count)}, settings, met, scratch, direct.data());
+  Batch1 choice{};  // 0 is always below the share
+  if (settings.bounces > 0 && settings.bounce_share < 1) choice = draw(met, Dimension::bounces);
   for (size_t n = 0; n < size_t(met.count); ++n) {
     const size_t k = sample_of[n];
     const ClothPoint& point = points[n];
@@ -181,8 +183,14 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
     sample.back = scene.back && point.fabric == &*scene.back;
     sample.alpha = 1;
     if (keep(direct[n], scratch.counts)) sample.direct = direct[n];
-    if (settings.bounces > 0) sample.indirect = indirect_light(scene, settings, point, seed, samples[k], scratch);
-    if (point.fabric->gap > 0) look_through(scene, settings, point, rays[k], seed, samples[k], scratch, sample);
+    const float follow =
+        settings.bounces > 0 && choice[n] < double(settings.bounce_share) ? 1 / settings.bounce_share : 0.0f;
+    if (follow > 0) {
+      sample.indirect = indirect_light(scene, settings, point, seed, samples[k], scratch);
+      for (Color& light : sample.indirect.bounce) light *= follow;
+    }
+    if (point.fabric->gap > 0)
+      look_through(scene, settings, point, rays[k], seed, samples[k], follow, scratch, sample);
   }
 }
 

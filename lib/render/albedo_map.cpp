@@ -39,7 +39,8 @@ Color look_up(const AlbedoMap& map, const Vec3& wo) {
   const int c1 = (c0 + 1) % AlbedoMap::azimuths;
   const float fr = row - float(r0), fc = column - std::floor(column);
   const auto at = [&](int r, int c) { return map.values[size_t(r * AlbedoMap::azimuths + c)]; };
-  return (at(r0, c0) * (1 - fc) + at(r0, c1) * fc) * (1 - fr) + (at(r0 + 1, c0) * (1 - fc) + at(r0 + 1, c1) * fc) * fr;
+  return (at(r0, c0) * (1 - fc) + at(r0, c1) * fc) * (1 - fr) +
+         (at(r0 + 1, c0) * (1 - fc) + at(r0 + 1, c1) * fc) * fr;
 }
 
 }  // namespace sateen

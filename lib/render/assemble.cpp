@@ -49,8 +49,8 @@ std::string hash_mesh(const ControlMesh& cage) {
   return hash.add(fmt::format("{} {} {}", int(cage.scheme), int(cage.boundary), int(cage.fvar_boundary))).hex();
 }
 
-// Vertices lie on the limit surface and carry its normals, so an edge of 3 pixels on a fold of 20 pixels' radius is off
-// by a twentieth of a pixel at the silhouette and by nothing in the shading.
+// Vertices lie on the limit surface and carry its normals, so an edge of 3 pixels on a fold of 20 pixels' radius is
+// off by a twentieth of a pixel at the silhouette and by nothing in the shading.
 constexpr float longest_edge_pixels = 3;
 
 struct Cloth {
@@ -65,8 +65,7 @@ ControlMesh read_cage(const std::string& name) {
   // A word without a folder or an extension was meant as a name.
   if (!std::filesystem::exists(name, code) && name.find_first_of("/.") == std::string::npos)
     throw InputError(fmt::format("there is no mesh called {}", name),
-                     suggestion(name, built_in_shapes()) + " (or the path of an OBJ)",
-                     InputError::Kind::unreadable);
+                     suggestion(name, built_in_shapes()) + " (or the path of an OBJ)", InputError::Kind::unreadable);
   return read_obj(name);
 }
 
@@ -80,13 +79,15 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   const Camera rough = frame_points(cage.positions, settings.camera, settings.width, settings.height);
   report.level = settings.level >= 0
                      ? settings.level
-                     : automatic_level(cage, [&](const Vec3& p) { return rough.pixel_size(p); }, longest_edge_pixels);
+                     : automatic_level(
+                           cage, [&](const Vec3& p) { return rough.pixel_size(p); }, longest_edge_pixels);
   auto mesh = std::make_unique<Mesh>(subdivide(cage, report.level, settings.threads));
   report.triangles = mesh->triangles();
   report.warnings.insert(report.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   if (mesh->fallback_warps > 0)
-    report.warnings.push_back(fmt::format("{}: {} of {} vertices have no usable UVs: their warp follows the object's X axis",
-                                          settings.mesh, mesh->fallback_warps, mesh->positions.size()));
+    report.warnings.push_back(
+        fmt::format("{}: {} of {} vertices have no usable UVs: their warp follows the object's X axis", settings.mesh,
+                    mesh->fallback_warps, mesh->positions.size()));
   cloth.camera = frame_points(mesh->positions, settings.camera, settings.width, settings.height);
   cloth.mesh = std::move(mesh);
   report.mesh_seconds = now() - start;

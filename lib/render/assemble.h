@@ -20,7 +20,7 @@ struct SceneSettings {
   int level = -1;                           ///< subdivision, 0 to 6; -1: by pixel size
   float warp_angle_deg = 0;                 ///< added to the look's own
   std::string environment = default_environment;
-  std::string environment_space;            ///< colour space of the map; empty: as the file says
+  std::string environment_space;  ///< colour space of the map; empty: as the file says
   float environment_rotation_deg = 0;
   float environment_ev = 0;
   CameraSettings camera;

@@ -66,6 +66,7 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
       {"strategy", strategy_name(r.light.strategy), {}},
       {"candidates", number(r.light.candidates), {}},
       {"bounces", number(r.light.bounces), {}},
+      {"bounce share", number(r.light.bounce_share), {}},
       {"seed", number(r.seed), {}},
       {"adaptive", r.adaptive ? "yes" : "no", {}},
       {"layer albedo", r.albedo_layer ? "yes" : "no", {}},
@@ -127,7 +128,9 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   if (!job.strategy_reason.empty()) text("strategy_reason", job.strategy_reason);
   whole("candidates", r.light.candidates);
   whole("bounces", r.light.bounces);
+  real("bounce_share", double(r.light.bounce_share));
   text("effects", job.effects);
+  text("plan", plan_json(job.plan));
   whole("seed", r.seed);
   text("adaptive", r.adaptive ? "yes" : "no");
   if (job.first_sample > 0) whole("samples_from", job.first_sample);

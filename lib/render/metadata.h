@@ -4,6 +4,7 @@
 
 #include "render/assemble.h"
 #include "render/picture.h"
+#include "render/verify.h"
 
 namespace sateen {
 
@@ -15,8 +16,10 @@ struct PictureJob {
   float exposure_ev = 0;            ///< in force
   std::vector<std::string> layers;  ///< of an EXR, beside the beauty
   std::string strategy_reason;      ///< empty where the user named the strategy
-  std::string effects;              ///< in force, "shadows,gaps"
-  std::string color_config;         ///< ColorManager::description()
+  Plan plan;
+  std::vector<Verdict> verdicts;  ///< of --verify-plan
+  std::string effects;            ///< in force, "gaps,self-shadowing"
+  std::string color_config;       ///< ColorManager::description()
   std::string working_space;
   std::string version, command_line;
   int first_sample = 0;  ///< number of a pixel's first sample

@@ -92,10 +92,7 @@ bool render_pass(const Scene& scene, const RenderSettings& settings, const Albed
       here += add_row(scene, settings, albedo, film, y, x0, x1, until, *scratch);
     }
     const std::lock_guard lock(merging);
-    course.rays.camera += scratch->counts.camera;
-    course.rays.shadow += scratch->counts.shadow;
-    course.rays.bounce += scratch->counts.bounce;
-    course.rays.non_finite += scratch->counts.non_finite;
+    course.rays.add(scratch->counts);
     added += here;
     tell(wanted > 0 ? double(added) / double(wanted) : 1);
   });

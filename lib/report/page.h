@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "image/image.h"
 #include "report/plot.h"
 #include "report/table.h"
 
@@ -13,6 +14,8 @@ std::string data_uri(const std::string& kind, const std::string& bytes);
 
 /// A picture file (png, jpg, svg) as a `data:` address. InputError where it is missing or of another kind.
 std::string picture_uri(const std::filesystem::path& path);
+/// Display code values in [0, 1], of 3 or more channels, as PNG.
+std::string picture_uri(const Image& image);
 
 /// A picture that a slider can show: `uri` is its address, a data_uri() for a page that stands alone.
 struct SliderPicture {

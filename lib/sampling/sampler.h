@@ -19,6 +19,7 @@ enum class Dimension : std::uint32_t {
   choice,       ///< which candidate resampling keeps, 1D
   gap,          ///< whether a ray passes between the threads, 1D
   roulette,     ///< whether a path goes on, 1D
+  bounces,      ///< whether a sample follows light that meets cloth again, 1D
   lens,         ///< reserved for depth of field, 2D
   time          ///< reserved for motion blur, 1D
 };

@@ -18,10 +18,10 @@ enum class Backdrop {
   plain         ///< one colour
 };
 
-/// Everything that is rendered, compiled; const while rendering.
+/// Everything that is rendered, compiled; const while rendering. A copy shares mesh and ray tracer.
 struct Scene {
-  std::unique_ptr<const Mesh> mesh;      ///< a stable address: the ray tracer shares its arrays
-  std::unique_ptr<const RayTracer> rays;
+  std::shared_ptr<const Mesh> mesh;      ///< a stable address: the ray tracer shares its arrays
+  std::shared_ptr<const RayTracer> rays;
   Fabric front;
   std::optional<Fabric> back;            ///< of the cloth; empty: the same as the front
   Environment environment;
@@ -29,6 +29,7 @@ struct Scene {
   Backdrop backdrop = Backdrop::none;
   Color backdrop_color{0, 0, 0};         ///< working space
   bool has_gaps = false;                 ///< some look lets light straight through
+  bool self_shadowing = true;            ///< false: no part of the cloth keeps light from another
 };
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.

@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "film/film.h"
+#include "film/error.h"
 
 namespace sateen {
 
@@ -22,11 +22,6 @@ Reference make_reference(const Film& film, int samples);
 
 /// Contains the reference's own error: Reference::own must be small beside it. Films of the reference's size.
 PictureMse mse_against(const Film& film, const Reference& reference);
-
-/// A value with the ends of its 95 % interval.
-struct Interval {
-  double value = 0, low = 0, high = 0;
-};
 
 /// 97.5 % point of Student's t. `degrees` at least 1.
 double student_t(int degrees);

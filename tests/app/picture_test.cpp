@@ -76,7 +76,7 @@ TEST(Render, AnExrHoldsItsLayersAndSaysHowItWasMade) {
     EXPECT_TRUE(a.contains(std::string("sateen:") + name)) << name;
 }
 
-TEST(Render, AQualityAsksForItsErrorAndBouncesWhereTheCommandLineDoesNot) {
+TEST(Render, AQualityAsksForItsErrorAndWhatThatCallsForWhereTheCommandLineDoesNot) {
   const auto dry = [](std::vector<std::string> flags) {
     flags.insert(flags.end(), {"render", "--mesh", "swatch", "--dry-run", "--json"});
     std::rotate(flags.begin(), flags.end() - 5, flags.end());
@@ -85,7 +85,9 @@ TEST(Render, AQualityAsksForItsErrorAndBouncesWhereTheCommandLineDoesNot) {
     return run.out;
   };
   const std::string final_ = dry({"--quality", "final"});
-  EXPECT_NE(final_.find("\"bounces\": 2"), std::string::npos) << final_;
+  EXPECT_EQ(final_.find("\"bounces\": 0"), std::string::npos) << "one percent calls for bounces: " << final_;
+  const std::string rough = dry({"--error", "0.5"});
+  EXPECT_NE(rough.find("\"bounces\": 0"), std::string::npos) << rough;
   EXPECT_NE(final_.find("\"error\": 0.01"), std::string::npos) << final_;
   const std::string mixed = dry({"--quality", "final", "--bounces", "0", "--error", "0.25"});
   EXPECT_NE(mixed.find("\"bounces\": 0"), std::string::npos) << mixed;

@@ -1,0 +1,53 @@
+#include "render/plan.h"
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "console.h"
+#include "exit_code.h"
+#include "picture_report.h"
+#include "plan_report.h"
+#include "render/exposure.h"
+
+namespace sateen::app {
+
+int run_plan(const std::vector<std::string>& words) {
+  PictureFlags flags;
+  Command command("plan", "Says which effects a picture will be rendered with, which not, and why; renders nothing.",
+                  "[--look NAME] [--mesh FILE] [--env MAP] [--error E] [flags]");
+  command.paragraph(
+      "Takes the flags of sateen render. An effect is off because the look has none of it, because mesh or map make "
+      "it "
+      "impossible, or because a pilot found that the picture's error without it stays below half of the error asked "
+      "for. "
+      "light: its share of the picture's light; time: what it adds to a sample, or saves.");
+  add_picture_flags(command, flags);
+  command.example("sateen plan -m dress.obj -l ivory_duchess_satin --error 0.02", "for an error of 2 %");
+  command.example("sateen plan --effects auto,-gaps --json", "as JSON, with one effect switched off");
+  if (!command.parse(words)) return done;
+  constexpr int default_spp = 64;
+  settle_picture_flags(command, flags, default_spp);
+  const ColorManager colors(flags.ocio, flags.working);
+  flags.display = settle_display(flags.display, colors);
+  SceneReport report;
+  Scene scene = assemble_scene(flags.scene, colors, report);
+  report.metered_ev = metered_towards(scene.environment, flags.scene.camera.azimuth_deg, flags.scene.environment_ev);
+  const PictureJob job = make_job(flags, report, scene, colors, "plan " + shell_line(words));
+  for (const std::string& warning : report.warnings) print_warning(warning);
+  print_note(fmt::format("{} on {} under {}, level {}, {} triangles", report.look.name, job.scene.mesh,
+                         job.scene.environment, report.level, report.triangles));
+  if (!voice.json) {
+    print_result(plan_text(job.plan));
+    print_result(fmt::format("light is sampled by {}", job.strategy_reason.empty()
+                                                           ? strategy_name(job.render.light.strategy)
+                                                           : job.strategy_reason));
+  }
+  const int code = report_verdicts(job.plan, job.verdicts) ? int(done) : int(failed);
+  JsonWriter w;
+  w.open_object();
+  write_job(w, flags, job, report);
+  write_stats(flags, w.member("exit_code", code).close().text());
+  return code;
+}
+
+}  // namespace sateen::app

@@ -1,0 +1,47 @@
+#include "render/compare.h"
+
+namespace sateen {
+
+GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
+                          int threads) {
+  GridPicture picture;
+  picture.grid = grid;
+  picture.pixels.resize(size_t(grid.pixels()));
+  picture.work = trace_grid(scene, light, seed, grid, threads, [&](int i, std::span<const CameraSample> samples) {
+    FilmPixel& pixel = picture.pixels[size_t(i)];
+    for (const CameraSample& s : samples) add_sample(pixel, s.total(), s.alpha, 0x1p-33);
+  });
+  return picture;
+}
+
+std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole) {
+  std::vector<PixelLoss> all(less.pixels.size());
+  const double share = double(replicates) / less.grid.samples;
+  for (size_t i = 0; i < all.size(); ++i) {
+    for (size_t r = 0; r < size_t(replicates); ++r)
+      all[i].lost[r] = (whole.pixels[i].beauty[r] - less.pixels[i].beauty[r]) * share;
+    all[i].value = Vec3d(pixel_mean(whole.pixels[i]));
+  }
+  return all;
+}
+
+double relative_variance(const GridPicture& picture) {
+  double sum = 0;
+  for (const FilmPixel& pixel : picture.pixels) {
+    const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
+    for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (3 * (double(mean[c]) * double(mean[c]) + 0.01));
+  }
+  return sum / double(picture.pixels.size());
+}
+
+Image grid_image(const GridPicture& picture) {
+  Image image(picture.grid.columns, picture.grid.rows, 4);
+  for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    const Color mean = pixel_mean(picture.pixels[i]);
+    for (int c = 0; c < 3; ++c) image.pixels[4 * i + size_t(c)] = mean[c];
+    image.pixels[4 * i + 3] = float(picture.pixels[i].alpha / double(picture.pixels[i].samples));
+  }
+  return image;
+}
+
+}  // namespace sateen

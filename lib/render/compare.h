@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "image/image.h"
+#include "render/loss.h"
+#include "render/pixel_grid.h"
+
+namespace sateen {
+
+/// A grid of pixels as a small picture, with what it took.
+struct GridPicture {
+  PixelGrid grid;
+  std::vector<FilmPixel> pixels;
+  GridWork work;
+};
+GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
+                          int threads);
+
+/// What `less` lacks of `whole`: two pictures of one grid, the same random numbers.
+std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole);
+
+/// Mean over the pixels of their variance, relative as in E: E^2 of such a picture.
+double relative_variance(const GridPicture& picture);
+
+/// Premultiplied RGBA, working space.
+Image grid_image(const GridPicture& picture);
+
+}  // namespace sateen

@@ -1,0 +1,140 @@
+#include "render/effects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "look/json.h"
+
+namespace sateen {
+
+namespace {
+
+std::vector<std::string> switchable_names() {
+  std::vector<std::string> names;
+  for (const EffectInfo& info : effect_list())
+    if (info.switchable) names.push_back(info.name);
+  return names;
+}
+
+bool contains(const std::vector<Effect>& effects, Effect effect) {
+  return std::find(effects.begin(), effects.end(), effect) != effects.end();
+}
+
+void close_gaps(Fabric& fabric) {
+  // The darkening by Q stays: it is part of the cloth's own light.
+  fabric.gap = 0;
+}
+
+}  // namespace
+
+const std::vector<EffectInfo>& effect_list() {
+  static const std::vector<EffectInfo> all{
+      {Effect::families, "families", "two families of threads", false},
+      {Effect::surface_lobe, "surface-lobe", "highlight at the surface of the threads", false},
+      {Effect::directed_volume, "directed-volume", "directed glow from inside the threads", false},
+      {Effect::isotropic_volume, "isotropic-volume", "even glow from inside the threads", false},
+      {Effect::tangent_curve, "tangent-curve", "threads that bend over and under each other", false},
+      {Effect::back, "back", "another look on the back of the cloth", true},
+      {Effect::gaps, "gaps", "light and sight straight through between the threads", true},
+      {Effect::self_shadowing, "self-shadowing", "folds that keep light from one another", true},
+      {Effect::interreflection, "interreflection", "light from fold to fold", true},
+      {Effect::backdrop, "backdrop", "what is seen beside the cloth", true},
+  };
+  return all;
+}
+
+const EffectInfo& effect_info(Effect effect) {
+  return effect_list()[size_t(effect)];
+}
+
+Effect effect_from_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const EffectInfo& info : effect_list()) {
+    if (info.name == name) return info.effect;
+    names.push_back(info.name);
+  }
+  throw InputError(fmt::format("there is no effect {}", shown_name(name)), suggestion(name, names));
+}
+
+bool EffectSwitches::named_on(Effect effect) const {
+  return contains(on, effect);
+}
+bool EffectSwitches::named_off(Effect effect) const {
+  return contains(off, effect);
+}
+
+EffectSwitches read_effects(const std::string& list) {
+  EffectSwitches switches;
+  for (size_t at = 0; at <= list.size();) {
+    const size_t end = std::min(list.find(',', at), list.size());
+    const std::string word = list.substr(at, end - at);
+    at = end + 1;
+    if (word == "auto" || word == "all" || word == "none") {
+      switches.rest = word == "auto"  ? EffectSwitches::Rest::automatic
+                      : word == "all" ? EffectSwitches::Rest::all
+                                      : EffectSwitches::Rest::none;
+      continue;
+    }
+    if (word.empty() || (word[0] != '+' && word[0] != '-')) {
+      const std::vector<std::string> names = switchable_names();
+      const bool is_name = std::find(names.begin(), names.end(), word) != names.end();
+      throw InputError(
+          fmt::format("--effects has {}, expected auto, all, none, or names with + or -", shown_name(word)),
+          is_name ? fmt::format("did you mean +{}?", word) : suggestion(word, {"auto", "all", "none"}));
+    }
+    const Effect effect = effect_from_name(word.substr(1));
+    if (!effect_info(effect).switchable)
+      throw InputError(fmt::format("{} is part of the cloth model and cannot be switched", word.substr(1)),
+                       fmt::format("change the look, or switch one of {}", fmt::join(switchable_names(), ", ")));
+    (word[0] == '+' ? switches.on : switches.off).push_back(effect);
+    if (switches.named_on(effect) && switches.named_off(effect))
+      throw InputError(fmt::format("--effects has both +{0} and -{0}", word.substr(1)));
+  }
+  return switches;
+}
+
+void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
+  switch (effect) {
+    case Effect::back:
+      scene.back.reset();
+      break;
+    case Effect::gaps:
+      close_gaps(scene.front);
+      if (scene.back) close_gaps(*scene.back);
+      scene.has_gaps = false;
+      break;
+    case Effect::self_shadowing:
+      scene.self_shadowing = false;
+      break;
+    case Effect::interreflection:
+      light.bounces = 0;
+      break;
+    case Effect::backdrop:
+      scene.backdrop = Backdrop::none;
+      break;
+    case Effect::families:
+    case Effect::surface_lobe:
+    case Effect::directed_volume:
+    case Effect::isotropic_volume:
+    case Effect::tangent_curve:
+      break;  // a look's own numbers decide
+  }
+}
+
+std::string effects_text(const Scene& scene, const LightSettings& light) {
+  std::vector<std::string> names;
+  const auto add = [&](bool on, Effect effect) {
+    if (on) names.push_back(effect_info(effect).name);
+  };
+  add(scene.back.has_value(), Effect::back);
+  add(scene.has_gaps, Effect::gaps);
+  add(scene.self_shadowing, Effect::self_shadowing);
+  add(light.bounces > 0, Effect::interreflection);
+  add(scene.backdrop != Backdrop::none, Effect::backdrop);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ","));
+}
+
+}  // namespace sateen

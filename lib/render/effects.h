@@ -1,0 +1,64 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integrator/strategy.h"
+#include "scene/scene.h"
+
+namespace sateen {
+
+/// What can be simulated. Parts of the cloth model first, then what a plan may leave out.
+enum class Effect {
+  families,
+  surface_lobe,
+  directed_volume,
+  isotropic_volume,
+  tangent_curve,
+  back,
+  gaps,
+  self_shadowing,
+  interreflection,
+  backdrop
+};
+
+struct EffectInfo {
+  Effect effect;
+  std::string name;  ///< as typed: "self-shadowing"
+  std::string what;  ///< one phrase for people
+  bool switchable;   ///< false: part of the cloth model, which a look's own numbers turn off
+};
+
+/// In the order of the enum.
+const std::vector<EffectInfo>& effect_list();
+const EffectInfo& effect_info(Effect effect);
+
+/// InputError with the nearest name.
+Effect effect_from_name(const std::string& name);
+
+/// What the user said of effects.
+struct EffectSwitches {
+  enum class Rest { automatic, all, none };
+  Rest rest = Rest::automatic;        ///< of the effects that are not named
+  std::vector<Effect> on, off;        ///< named
+  std::optional<int> bounces;         ///< of interreflection; 0 is off
+  std::optional<float> bounce_share;  ///< LightSettings::bounce_share
+
+  bool named_on(Effect effect) const;
+  bool named_off(Effect effect) const;
+};
+
+/// "auto", "all", "none" and names with + or -, separated by commas: "auto,+interreflection,-gaps". InputError with
+/// the nearest name, for a part of the cloth model, and for a name that is both on and off.
+EffectSwitches read_effects(const std::string& list);
+
+/// Bounces of interreflection that is not cut short: roulette ends paths long before.
+inline constexpr int every_bounce = 16;
+
+/// Takes an effect out of a scene, which then is the scene that never had it.
+void remove_effect(Effect effect, Scene& scene, LightSettings& light);
+
+/// Names of the switchable effects that a scene has, "back,self-shadowing".
+std::string effects_text(const Scene& scene, const LightSettings& light);
+
+}  // namespace sateen

@@ -1,0 +1,23 @@
+#pragma once
+#include <array>
+#include <span>
+
+#include "film/error.h"
+
+namespace sateen {
+
+/// One pixel of a picture and what it would lose, as means of its independent replicates.
+struct PixelLoss {
+  std::array<Vec3d, replicates> lost{Vec3d(0), Vec3d(0), Vec3d(0), Vec3d(0)};
+  Vec3d value{0, 0, 0};  ///< of the whole picture
+};
+
+/// How far the picture would be off without it, as E is (film/error.h): sqrt(mean of lost^2 / (value^2 + 0.01)). The
+/// square comes from products of different replicates, so that noise does not count as loss; below 0, which chance
+/// may bring, it is 0. The interval takes the pixels for a random choice from the picture.
+Interval picture_loss(std::span<const PixelLoss> pixels);
+
+/// Share of the picture's light that would be lost, mean of the channels; its interval in the same way.
+Interval light_share(std::span<const PixelLoss> pixels);
+
+}  // namespace sateen
