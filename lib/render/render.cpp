@@ -35,6 +35,17 @@ double grain_of(const Environment& environment) {
   return std::ldexp(1.0, (light > 0 ? std::ilogb(light) : 0) - 33);
 }
 
+/// What a sample that is dealt out by error costs more than one of the first, even pass: it goes to the cloth, and
+/// one that meets none costs about a tenth.
+double dearer_by_error(const Film& film) {
+  double met = 0, all = 0;
+  for (const FilmPixel& pixel : film.pixels) {
+    all += pixel.samples > 0;
+    met += pixel.alpha > 0;
+  }
+  return met > 0 ? all / (met + 0.1 * (all - met)) : 1;
+}
+
 /// One call of render(): clocks, what is told, and where the next pass ends.
 struct Run {
   const RenderSettings& settings;
@@ -43,6 +54,7 @@ struct Run {
   double start = now(), cpu_start = cpu_seconds();
   double seconds_before = course.seconds, cpu_before = course.cpu_seconds;  ///< of earlier runs
   double told = 0, saved = start, tracing = start;
+  double dearer = 1;  ///< later samples than those so far
   int first_samples = course.samples;
   RenderState state = {};
   Promise coming = {};  ///< the newest forecast
@@ -63,12 +75,12 @@ struct Run {
     const StopRules& stop = settings.stop;
     double left = -1;
     if (coming.made)
-      left = std::max(coming.seconds.value - course.seconds, 0.0);
-    else if (stop.spp > 0 && done > first_samples)
-      left = (stop.spp - done) * per_sample(done);
+      left = std::max(coming.seconds.value - course.seconds, 0.0) * (course.past.size() == 1 ? dearer : 1);
+    else if (stop.spp > 0 && (done >= first_samples + 1 || (done > first_samples && elapsed() > 2)))  // few tiles lie
+      left = (stop.spp - done) * per_sample(done) * dearer;
     if (stop.seconds > 0)
       left = left < 0 ? stop.seconds - state.seconds : std::min(left, stop.seconds - state.seconds);
-    state.seconds_left = left < 0 && stop.seconds <= 0 && stop.spp <= 0 ? -1 : std::max(left, 0.0);
+    state.seconds_left = left;
     const double whole = course.seconds + state.seconds_left;
     if (state.seconds_left >= 0 && whole > 0)
       state.fraction = std::max(state.fraction, std::min(course.seconds / whole, 0.999));
@@ -96,8 +108,9 @@ struct Run {
                              course.seconds, course.cpu_seconds});
     coming = forecast(course.past, settings.stop, seconds_before);
     // The promise wants three looks at how samples are dealt out, and about 2 % of the work.
-    if (!course.promise.made && coming.made && course.samples >= 4 * least_samples &&
-        course.samples >= 0.02 * coming.samples.value)
+    const bool short_run = settings.stop.spp > 0 && settings.stop.spp <= 4 * least_samples;
+    if (!course.promise.made && coming.made && course.samples >= (short_run ? 2 : 4) * least_samples &&
+        course.samples != settings.stop.spp && course.samples >= 0.02 * coming.samples.value)
       course.promise = coming;
     state.promise = course.promise;
     return settings.stop.error > 0 && state.error.known && state.error.high <= settings.stop.error;
@@ -167,7 +180,10 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
       run.saved = now();
     }
     course.samples = run.state.samples = end;
-    if (result.first_pass_seconds == 0) result.first_pass_seconds = run.elapsed();
+    if (result.first_pass_seconds == 0) {
+      result.first_pass_seconds = run.elapsed();
+      if (settings.adaptive) run.dearer = dearer_by_error(film);
+    }
     run.tell(end);
   }
 }

@@ -39,7 +39,7 @@ TEST(Usage, AMisspeltValueIsAnsweredWithTheNearestOne) {
                  "error: --progress is barr\n  help: did you mean bar?\n" + render_usage);
   expect_refused(
       run_sateen({"render", "--aov", "albedo,norml"}), 2,
-      "error: there is no layer norml\n  help: known: direct, indirect, backdrop, surface, volume, warp_surface, "
+      "error: there is no layer norml\n  help: known: direct, indirect, indirect_1, indirect_2, indirect_3, indirect_more, through_gaps, backdrop, surface, volume, warp_surface, "
       "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
 }
 
