@@ -251,7 +251,7 @@ TEST(Render, PercentNeverGoesBackAndReachesAHundredLast) {
       end = std::min(said.find('\n', at), said.size());
       const std::string line = said.substr(at, end - at);
       const bool ours = style[0] == 'a'
-                            ? line.find("ALF_PROGRESS") == 0 || (!farm && line.find(" spp ") != std::string::npos)
+                            ? line.find(farm ? "ALF_PROGRESS " : " %") != std::string::npos
                             : line.find("percent") != std::string::npos || line.find("openjd_progress") == 0;
       const size_t digit = line.find_first_of("0123456789");
       if (!ours || digit == std::string::npos) continue;
