@@ -63,6 +63,7 @@ int run_cost(const std::vector<std::string>& words) {
   CostSettings settings;
   settings.scene = flags.scene;
   settings.light = flags.render.light;
+  settings.effects = flags.switches;
   settings.display = settle_display(flags.display, colors);
   settings.exposure_ev = flags.exposure_ev;
   settings.seed = flags.render.seed;

@@ -4,7 +4,7 @@
 
 #include "base/files.h"
 #include "console.h"
-#include "report/page.h"
+#include "report/table.h"
 
 namespace sateen::app {
 
@@ -61,35 +61,9 @@ bool report_verdicts(const Plan& plan, const std::vector<Verdict>& verdicts) {
   return all_right;
 }
 
-Table bill_table(const Bill& bill) {
-  Table table{{"effect", "time", "variance", "E without it (95 % interval)", "largest difference", ""}, {}};
-  const auto share = [](const std::optional<double>& s) { return s ? fmt::format("{:.1f} %", 100 * *s) : "-"; };
-  for (const BillItem& item : bill.items) {
-    const EffectInfo& info = effect_info(item.effect);
-    table.rows.push_back({info.name, share(item.time_share), share(item.variance_share), percent_text(item.loss),
-                          fmt::format("{:.0f} of 255", item.visible), info.what});
-  }
-  return table;
-}
-
 void write_bill_page(const std::filesystem::path& path, const Bill& bill, const std::string& lead) {
   Page page("What every effect costs and is worth", lead);
-  page.table(bill_table(bill));
-  page.note(fmt::format(
-      "time: share of a sample's CPU time; variance: share of E^2; both measured on {} x {} pixels spread over the "
-      "picture, with and without the effect. A part of the cloth model counts by the direct light that comes by way "
-      "of "
-      "it. The bill took {:.1f} CPU-seconds.",
-      bill.picture.width, bill.picture.height, bill.cpu_seconds));
-  for (const BillItem& item : bill.items) {
-    const EffectInfo& info = effect_info(item.effect);
-    page.section(info.name);
-    page.slider(fmt::format("{}. Without it the picture is off by E {}.", info.what, percent_text(item.loss)),
-                {{"with", picture_uri(bill.picture)},
-                 {"without", picture_uri(item.without)},
-                 {fmt::format("difference x {:.0f}", difference_gain), picture_uri(item.difference)}},
-                640);
-  }
+  add_bill(page, bill);
   write_text_whole(path, page.html());
 }
 

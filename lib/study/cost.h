@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/bill.h"
 #include "render/render.h"
 #include "report/plot.h"
 #include "study/bias.h"
@@ -15,6 +16,7 @@ namespace sateen {
 struct CostSettings {
   SceneSettings scene;  ///< as it will be rendered
   LightSettings light;
+  EffectSwitches effects;
   DisplaySettings display;           ///< settled
   std::optional<float> exposure_ev;  ///< empty: metered
   std::uint32_t seed = 1;
@@ -72,6 +74,8 @@ struct CostResult {
   std::vector<CostPoint> points;
   PowerFit fit;  ///< true E against CPU-seconds
   std::vector<PriceList> lists;
+  Plan plan;  ///< for E 1 %; the effects of all pictures
+  Bill bill;
   std::vector<std::string> fixed;  ///< approximations that this version cannot vary, one sentence each
   std::vector<Quality> qualities;
   std::vector<PlotPoint> frontier;  ///< E against CPU-seconds over all combinations of settings

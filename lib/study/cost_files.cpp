@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "look/json_writer.h"
 #include "report/page.h"
+#include "study/bill_report.h"
 #include "study/cost_report.h"
 #include "study/report_folder.h"
 
@@ -80,7 +81,11 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
     for (const Price& p : list.prices) write_price(w, p, list.biased);
     w.close().close();
   }
-  w.close().key("not_variable").open_list();
+  w.close().key("plan").open_object();
+  write_plan(w, result.plan);
+  w.close();
+  write_bill(w, result.bill);
+  w.key("not_variable").open_list();
   for (const std::string& each : result.fixed) w.value(each);
   w.close().key("qualities").open_object();
   for (const Quality& q : result.qualities) {
@@ -136,6 +141,10 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
     for (size_t k = 0; k < list.prices.size(); ++k)
       shown.push_back({list.name + " " + list.prices[k].setting, picture_uri(picture_folder / file_of(i, k))});
     page.slider(fmt::format("Every setting at {} samples.", s.price_samples), shown, 760);
+  }
+  if (!result.bill.items.empty()) {
+    page.section("The bill of effects");
+    add_bill(page, result.bill);
   }
   page.section("Not variable");
   for (const std::string& each : result.fixed) page.note(each + ".");

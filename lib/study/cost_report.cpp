@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "render/progress.h"
+#include "study/bill_report.h"
 
 namespace sateen {
 
@@ -158,6 +159,7 @@ std::string cost_text(const CostResult& result) {
     text += fmt::format("\nPrice of {}{}\n\n{}", list.name, list.note.empty() ? "" : " (" + list.note + ")",
                         table_text(price_table(list)));
   }
+  if (!result.bill.items.empty()) text += "\nThe bill of effects\n\n" + table_text(bill_table(result.bill));
   if (!result.fixed.empty()) text += "\nNot variable\n\n";
   for (const std::string& each : result.fixed) text += "  " + each + "\n";
   if (!result.qualities.empty())

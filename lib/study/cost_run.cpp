@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "film/develop.h"
 #include "mesh/subdivide.h"
+#include "render/pilot.h"
 #include "study/cost.h"
 #include "study/environment_size.h"
 #include "study/work_clock.h"
@@ -17,6 +18,7 @@ namespace sateen {
 namespace {
 
 constexpr int reference_factor = 8;
+constexpr double plan_error = 0.01;  // that of the best quality that is recommended
 constexpr std::uint32_t reference_seed = 900001, pair_seed = 700001;
 
 class CostMeasurement {
@@ -36,6 +38,7 @@ class CostMeasurement {
     measure_strategies();
     measure_candidates();
     measure_levels();
+    make_out_bill();
     result_.fixed = {
         "tangent quadrature: its number of points follows from the lobes' widths and is no setting of this version",
         "direction table: its size is fixed in this version",
@@ -60,6 +63,11 @@ class CostMeasurement {
     scene_ = assemble_scene(s.scene, colors_, report);
     result_.warnings = report.warnings;
     result_.level = report.level;
+    LightSettings& light = result_.settings.light;
+    result_.plan = make_plan(scene_, report.look, s.effects, plan_error, light, s.seed, s.threads);
+    apply_plan(result_.plan, scene_, light);
+    if (light.strategy == Strategy::automatic)
+      light.strategy = choose_strategy(scene_, light, s.seed, s.threads).strategy;
     exposure_ = s.exposure_ev.value_or(report.metered_ev);
     const double pixels = double(s.scene.width) * s.scene.height, share = std::min(1.0, s.pixels / pixels);
     result_.width = std::max(16, int(std::lround(s.scene.width * std::sqrt(share))));
@@ -262,6 +270,8 @@ class CostMeasurement {
       SceneReport report;
       Scene scene = assemble_scene(settings, colors_, report);
       scene.camera = scene_.camera;  // one framing for all
+      LightSettings planned = result_.settings.light;
+      apply_plan(result_.plan, scene, planned);
       pairs.push_back(render_pair(scene, result_.settings.light));
       setups.push_back(report.mesh_seconds + report.tracer_seconds);
       levels.push_back(level);
@@ -273,6 +283,17 @@ class CostMeasurement {
       list.prices.back().setup_seconds = setups[i];
     }
     keep(std::move(list));
+  }
+
+  void make_out_bill() {
+    if (clock_.stopped()) return;
+    tell("the bill of effects");
+    const CostSettings& s = result_.settings;
+    BillSettings settings;
+    settings.display = s.display;
+    settings.exposure_ev = exposure_;
+    settings.columns = 128;
+    result_.bill = make_bill(scene_, result_.plan, s.light, settings, colors_, s.seed, s.threads);
   }
 
   const ColorManager& colors_;
