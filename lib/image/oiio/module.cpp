@@ -269,6 +269,7 @@ void write_display(const fs::path& path, const Image& image, const Attributes& a
 
 extern "C" const sateen::ImageFileFunctions* sateen_image_file_functions() {
   static const sateen::ImageFileFunctions functions{sateen::read_info, sateen::read_pixels, sateen::read_texts,
-                                                    sateen::write_display};
+                                                    sateen::write_display, sateen::oiio::make_texture,
+                                                    sateen::oiio::look_up, sateen::oiio::free_texture};
   return &functions;
 }
