@@ -78,10 +78,12 @@ Color albedo_color(const Fabric& fabric, const Vec3& wo, int thetas) {
 Fabric compile_fabric(const Look& look, const ToWorking& to_working, const FabricParts& parts) {
   Fabric fabric;
   fabric.name = look.name;
-  const auto quadrature = [&](const ThreadFamily& f) {
-    return render_quadrature(f.offsets_deg, f.lengths, narrowest_lobe(f), double(radians(look.masking_width_deg)));
+  const auto quadrature = [&](const ThreadFamily& f, float narrowest) {
+    return render_quadrature(f.offsets_deg, f.lengths, std::min(narrowest_lobe(f), double(narrowest)),
+                             double(radians(look.masking_width_deg)));
   };
-  const std::vector<Tangent> warp = quadrature(look.warp), weft = quadrature(look.weft);
+  const std::vector<Tangent> warp = quadrature(look.warp, parts.narrowest[0]),
+                             weft = quadrature(look.weft, parts.narrowest[1]);
   fabric.threads = compile_threads<float>(look, warp, weft);
   fabric.gap = fabric.threads.gap;
   fabric.warp_angle = radians(look.warp_angle_deg);
@@ -110,9 +112,19 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
   return fabric;
 }
 
-void prepare_threads(const Fabric& fabric, const Vec3& wo, FabricView& view) {
+void prepare_threads(const Fabric& fabric, const Vec3& wo, FabricView& view, const PointValues* point) {
   view.fabric = &fabric;
-  prepare_view<float>(fabric.threads, wo.x, wo.y, wo.z, view.threads);
+  view.A = point ? point->A : fabric.A;
+  view.own_threads = &fabric.threads;
+  if (point && fabric.varying) {
+    if (view.rewritten_from != fabric.varying) {
+      view.rewritten = fabric.varying->threads;
+      view.rewritten_from = fabric.varying;
+    }
+    rewrite_threads(*fabric.varying, *point, view.rewritten);
+    view.own_threads = &view.rewritten;
+  }
+  prepare_view<float>(*view.own_threads, wo.x, wo.y, wo.z, view.threads);
 }
 
 void prepare_sampler(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, SamplerView& view) {
@@ -122,21 +134,19 @@ void prepare_sampler(const Fabric& fabric, const Vec3& wo, FabricSampler sampler
   if (sampler == FabricSampler::talk) prepare_talk(fabric.talk, wo, view.talk);
 }
 
-void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view) {
-  prepare_threads(fabric, wo, view);
+void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view,
+                  const PointValues* point) {
+  prepare_threads(fabric, wo, view, point);
   prepare_sampler(fabric, wo, sampler, view.sampler);
 }
 
 ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi) {
-  return scatter<float>(view.fabric->threads, view.threads, wi.x, wi.y, wi.z);
-}
-
-Color combine_parts(const Fabric& fabric, const ThreadSums<float>& s) {
-  return Color(s.surface[0] + s.surface[1]) + fabric.A[0] * s.volume[0] + fabric.A[1] * s.volume[1];
+  return scatter<float>(*view.own_threads, view.threads, wi.x, wi.y, wi.z);
 }
 
 Color evaluate(const FabricView& view, const Vec3& wi) {
-  return combine_parts(*view.fabric, evaluate_parts(view, wi));
+  const ThreadSums<float> s = evaluate_parts(view, wi);
+  return Color(s.surface[0] + s.surface[1]) + view.A[0] * s.volume[0] + view.A[1] * s.volume[1];
 }
 
 float pdf(const SamplerView& view, const Vec3& wi) {
