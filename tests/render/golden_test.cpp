@@ -10,6 +10,7 @@
 #include "image/color.h"
 #include "look/read.h"
 #include "render/pictures.h"
+#include "scene/compile_cloth.h"
 #include "statistics/z_test.h"
 
 // A golden picture of every look: means and mean squares of blocks of pixels, kept with their standard errors in
@@ -68,15 +69,13 @@ struct Golden {
 
 Golden measure(const std::string& name) {
   static const ColorManager colors("built-in");
-  const ToWorking to_working = [&](const Color& c, const std::string& space) { return colors.to_working(c, space); };
   FabricParts compiled;
   compiled.threads = 2;
   Scene& scene = stage();
   const Look look = read_look(look_path(name));
-  scene.front = compile_fabric(look, to_working, compiled);
-  scene.back.reset();
-  if (!look.back.empty()) scene.back = compile_fabric(read_back(look), to_working, compiled);
-  scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
+  std::optional<CompiledSide> back;
+  if (!look.back.empty()) back = compile_side(read_back(look), colors, compiled);
+  set_sides(scene, compile_side(look, colors, compiled), std::move(back));
   Golden golden;
   std::vector<Color> before;
   for (std::uint32_t b = 0; b < batches; ++b) {
