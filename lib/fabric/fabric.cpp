@@ -42,15 +42,19 @@ Color solve_volume_color(const Color& color, const Albedo& normal, const std::st
     if (!(A[c] >= 0) || !(A[c] <= 1))
       throw InputError(
           fmt::format("{}.color is ({:.4g}, {:.4g}, {:.4g}) in the working space, reachable is {:.4g} to {:.4g} in "
-                      "every channel", family, color.x, color.y, color.z, normal.surface, normal.surface + volume),
-          A[c] < 0 ? "the surface lobe alone is brighter: raise the colour, or lower eta" : "lower the colour, or raise k_d");
+                      "every channel",
+                      family, color.x, color.y, color.z, normal.surface, normal.surface + volume),
+          A[c] < 0 ? "the surface lobe alone is brighter: raise the colour, or lower eta"
+                   : "lower the colour, or raise k_d");
   }
   return A;
 }
 
 }  // namespace
 
-Color same_space(const Color& value, const std::string&) { return value; }
+Color same_space(const Color& value, const std::string&) {
+  return value;
+}
 
 Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
   const int phis = thetas / 2;
@@ -62,8 +66,8 @@ Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
     for (int j = 0; j < phis; ++j) {
       const double theta = (i + 0.5) * step - pi / 2.0, phi = (j + 0.5) * step_phi - pi / 2.0;
       const double c = std::cos(theta), weight = c * step * step_phi;
-      const ThreadSums<float> s = scatter<float>(threads, view, float(std::sin(theta)), float(c * std::sin(phi)),
-                                                 float(c * std::cos(phi)));
+      const ThreadSums<float> s =
+          scatter<float>(threads, view, float(std::sin(theta)), float(c * std::sin(phi)), float(c * std::cos(phi)));
       surface += weight * (double(s.surface[0]) + s.surface[1]);
       for (int family = 0; family < 2; ++family) volume[family] += weight * s.volume[family];
     }
@@ -151,14 +155,19 @@ Color evaluate(const FabricView& view, const Vec3& wi) {
 
 float pdf(const SamplerView& view, const Vec3& wi) {
   switch (view.sampler) {
-    case FabricSampler::uniform: return wi.z > 0 ? 1 / (2 * pi) : 0;
-    case FabricSampler::talk: return talk_pdf(view.fabric->talk, view.talk, wi);
-    case FabricSampler::table: return table_pdf(view.table, wi);
+    case FabricSampler::uniform:
+      return wi.z > 0 ? 1 / (2 * pi) : 0;
+    case FabricSampler::talk:
+      return talk_pdf(view.fabric->talk, view.talk, wi);
+    case FabricSampler::table:
+      return table_pdf(view.table, wi);
   }
   return 0;
 }
 
-BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi) { return {evaluate(view, wi), pdf(view.sampler, wi)}; }
+BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi) {
+  return {evaluate(view, wi), pdf(view.sampler, wi)};
+}
 
 std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u) {
   switch (view.sampler) {
@@ -171,7 +180,8 @@ std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u) {
       const Vec3 wi = sample_talk(view.fabric->talk, view.talk, u.thread, u.direction);
       return wi.z > 0 ? std::optional<Vec3>(wi) : std::nullopt;
     }
-    case FabricSampler::table: return sample_table(view.table, u.choice, u.direction[0], u.direction[1]);
+    case FabricSampler::table:
+      return sample_table(view.table, u.choice, u.direction[0], u.direction[1]);
   }
   return std::nullopt;
 }

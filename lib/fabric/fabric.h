@@ -22,8 +22,8 @@ struct Fabric {
   std::array<Color, 2> A;  ///< volume colours of warp and weft, working space; solved where the look gives `color`
   DirectionTable table;
   TalkTangents talk;
-  float warp_angle = 0;    ///< [radians]
-  float gap = 0;           ///< share of the cloth's area that no thread covers
+  float warp_angle = 0;                           ///< [radians]
+  float gap = 0;                                  ///< share of the cloth's area that no thread covers
   std::shared_ptr<const VaryingThreads> varying;  ///< where numbers of the threads differ from point to point
   std::string name;
 };
@@ -31,7 +31,8 @@ struct Fabric {
 /// Ways to draw a direction from the fabric.
 enum class FabricSampler { uniform, talk, table };
 
-/// What one pair of directions gives. `f_cos` is F of cloth-model.md section 3: the integrand with its cosine inside [1/sr].
+/// What one pair of directions gives. `f_cos` is F of cloth-model.md section 3: the integrand with its cosine inside
+/// [1/sr].
 struct BsdfValue {
   Color f_cos{0, 0, 0};
   float pdf = 0;  ///< of the sampler asked for, solid angle [1/sr]
@@ -48,7 +49,7 @@ struct SamplerView {
 /// View-only terms of one hit, cloth frame, shared by every light direction. Large: keep one a thread, reuse it.
 struct FabricView {
   const Fabric* fabric = nullptr;
-  std::array<Color, 2> A;                      ///< the fabric's or the point's
+  std::array<Color, 2> A;                       ///< the fabric's or the point's
   const Threads<float>* own_threads = nullptr;  ///< the fabric's or `rewritten`
   ThreadView<float> threads;
   SamplerView sampler;
@@ -84,8 +85,8 @@ BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi);
 
 /// Numbers that `sample` wants, all in [0, 1).
 struct FabricRandom {
-  double choice = 0;                  ///< table: view slice; talk: unused
-  std::array<double, 2> thread{0, 0}; ///< talk: tangent and lobe
+  double choice = 0;                   ///< table: view slice; talk: unused
+  std::array<double, 2> thread{0, 0};  ///< talk: tangent and lobe
   std::array<double, 2> direction{0, 0};
 };
 

@@ -40,15 +40,20 @@ const ImageFileFunctions& image_file_functions() {
   return *loaded;
 }
 
-ImageFileInfo read_image_info(const fs::path& path) { return image_file_functions().read_info(path); }
+ImageFileInfo read_image_info(const fs::path& path) {
+  return image_file_functions().read_info(path);
+}
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
   return image_file_functions().read_pixels(path, limits, info);
 }
 
-Attributes read_attributes(const fs::path& path) { return image_file_functions().read_texts(path); }
+Attributes read_attributes(const fs::path& path) {
+  return image_file_functions().read_texts(path);
+}
 
-void write_display_image(const fs::path& path, const Image& image, const Attributes& attributes, int bits, bool srgb) {
+void write_display_image(const fs::path& path, const Image& image, const Attributes& attributes, int bits,
+                         bool srgb) {
   image_file_functions().write_display(path, image, attributes, bits, srgb);
 }
 

@@ -213,8 +213,7 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
       sample.indirect = indirect_light(scene, settings, point, seed, samples[k], scratch);
       for (Color& light : sample.indirect.bounce) light *= follow;
     }
-    if (point.gap > 0)
-      look_through(scene, settings, point, rays[k], seed, samples[k], follow, scratch, sample);
+    if (point.gap > 0) look_through(scene, settings, point, rays[k], seed, samples[k], follow, scratch, sample);
   }
 }
 

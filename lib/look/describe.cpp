@@ -64,12 +64,12 @@ std::string type_schema(const Field& field) {
 
 std::string property(const Field& field) {
   const std::string initial = field_text(Look(), field), type = type_schema(field);
-  const std::string either =
-      fmt::format("\"anyOf\": [{{{}}}, {{\"$ref\": \"#/$defs/{}\"}}]", type,
-                  field.kind == FieldKind::color ? "color_texture" : "texture");
+  const std::string either = fmt::format("\"anyOf\": [{{{}}}, {{\"$ref\": \"#/$defs/{}\"}}]", type,
+                                         field.kind == FieldKind::color ? "color_texture" : "texture");
   return fmt::format("{}: {{\"description\": {}, {}{}}}", json_quote(field.key),
                      json_quote(field.unit.empty() ? field.help : field.help + ", in " + field.unit),
-                     field.mappable ? either : type, initial.empty() ? std::string() : fmt::format(", \"default\": {}", initial));
+                     field.mappable ? either : type,
+                     initial.empty() ? std::string() : fmt::format(", \"default\": {}", initial));
 }
 
 }  // namespace
@@ -147,14 +147,15 @@ std::string look_schema() {
     if (field.group == "warp") family.push_back(property(field));
   }
   for (const std::string group : groups)
-    top.push_back(fmt::format("\"{}\": {{\"$ref\": \"#/$defs/{}\"}}", group,
-                              group == "pattern" ? "pattern" : "family"));
+    top.push_back(
+        fmt::format("\"{}\": {{\"$ref\": \"#/$defs/{}\"}}", group, group == "pattern" ? "pattern" : "family"));
   return fmt::format(
       "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"A look: one cloth\",\n"
       "  \"type\": \"object\",\n  \"additionalProperties\": false,\n  \"properties\": {{\n{}  }},\n"
       "  \"$defs\": {{\n    \"texture\": {},\n    \"color_texture\": {},\n"
       "    \"pattern\": {{\n      \"description\": \"Another look that is woven in\",\n"
-      "      \"type\": \"object\",\n      \"additionalProperties\": false,\n      \"properties\": {{\n{}      }}\n    }},\n"
+      "      \"type\": \"object\",\n      \"additionalProperties\": false,\n      \"properties\": {{\n{}      }}\n   "
+      " }},\n"
       "    \"family\": {{\n      \"description\": \"One family of threads\",\n"
       "      \"type\": \"object\",\n      \"additionalProperties\": false,\n"
       "      \"not\": {{\"required\": [\"A\", \"color\"]}},\n      \"properties\": {{\n{}      }}\n    }}\n  "

@@ -184,7 +184,8 @@ struct MemberText {
 namespace {
 
 /// A texture in place of a value: the field itself goes back to its default.
-bool set_texture(Look& look, const Field& field, const JsonValue& value, std::string_view name, const Report& report) {
+bool set_texture(Look& look, const Field& field, const JsonValue& value, std::string_view name,
+                 const Report& report) {
   TextureValue read;
   if (!read_texture(read, field, value, name, look.file, report)) return false;
   const auto put = [&](const std::string& group, ThreadFamily* family) {

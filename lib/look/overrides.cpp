@@ -108,7 +108,7 @@ std::string key_help(const std::string& key, const std::string& group) {
   }
   if (group.empty()) here.insert(here.end(), {"inherits", "pattern", "warp", "weft"});
   if (!group.empty()) elsewhere.push_back("inherits");
-  const std::string level = !group.empty()                  ? "at the top level"
+  const std::string level = !group.empty()                   ? "at the top level"
                             : key == "mask" || key == "look" ? "inside \"pattern\""
                                                              : "inside \"warp\" or \"weft\"";
   if (std::find(elsewhere.begin(), elsewhere.end(), key) != elsewhere.end())
@@ -161,7 +161,8 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
       std::string& named = changed.*std::get<std::string Look::*>(field->member);
       try {
         const auto found = named.empty() ? std::filesystem::path() : find_look_beside(named, changed.file);
-        if (named.find('/') != std::string::npos) named = std::filesystem::absolute(found).lexically_normal().string();
+        if (named.find('/') != std::string::npos)
+          named = std::filesystem::absolute(found).lexically_normal().string();
       } catch (const InputError& error) {
         complain(text, fmt::format("there is no look {}", shown_name(named)), error.diagnostics.front().help);
       }

@@ -265,8 +265,9 @@ Look read_back(const Look& look, const std::vector<fs::path>& extra_folders) {
 Look read_pattern(const Look& look, const std::vector<fs::path>& extra_folders) {
   Look woven = read_look(find_look_beside(look.pattern_look, look.file, extra_folders).string(), {}, extra_folders);
   if (!woven.pattern_look.empty())
-    throw InputError(fmt::format("{}: its pattern weaves in {}, which has a pattern of its own", look.file, woven.name),
-                     "name a look without one");
+    throw InputError(
+        fmt::format("{}: its pattern weaves in {}, which has a pattern of its own", look.file, woven.name),
+        "name a look without one");
   return woven;
 }
 

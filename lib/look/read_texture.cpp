@@ -26,8 +26,9 @@ struct Reader {
 
   void number(float& to, const JsonValue& item, double low, double high, std::string_view what) {
     if (item.kind != Kind::number || !(item.number >= low && item.number <= high))
-      return fault(item.place, fmt::format("{} of the texture of {} is {}, expected a number from {:g} to {:g}", what,
-                                           name, item.kind == Kind::number ? shown_name(item.text) : "none", low, high));
+      return fault(item.place,
+                   fmt::format("{} of the texture of {} is {}, expected a number from {:g} to {:g}", what, name,
+                               item.kind == Kind::number ? shown_name(item.text) : "none", low, high));
     to = float(item.number) + 0.0f;
   }
 
@@ -57,8 +58,7 @@ void settle_path(Reader& reader, TextureValue& texture, const JsonValue& item, c
   texture.path = path.string();
   if (!texture_files(texture.path).empty()) return;
   if (is_udim(texture.path))
-    return reader.fault(item.place,
-                        fmt::format("there is no texture {} of any number", shown_name(item.text)),
+    return reader.fault(item.place, fmt::format("there is no texture {} of any number", shown_name(item.text)),
                         "<UDIM> stands for 1001, 1002 ... in the file's name");
   const bool exists = fs::exists(path, code);
   reader.fault(item.place,
@@ -86,7 +86,8 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
     } else if (item.key == "space" && color) {
       reader.text(texture.space, item, "the name of a colour space");
     } else if (item.key == "space") {
-      reader.fault(item.key_place, fmt::format("the texture of {} has a space, but numbers are taken as they are", name),
+      reader.fault(item.key_place,
+                   fmt::format("the texture of {} has a space, but numbers are taken as they are", name),
                    "drop it, and scale with \"scale\" and \"offset\"");
     } else if (item.key == "scale") {
       reader.number(texture.scale, item, -most, most, "scale");
@@ -97,12 +98,14 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
         for (size_t i = 0; i < 2; ++i)
           reader.number(texture.repeat[i], item.items[i], least_repeat, most_repeat, "repeat");
       else
-        reader.fault(item.place, fmt::format("repeat of {} is no list of two numbers, expected [along u, along v]", name));
+        reader.fault(item.place,
+                     fmt::format("repeat of {} is no list of two numbers, expected [along u, along v]", name));
     } else if (item.key == "wrap") {
       const auto& names = wrap_names();
       const auto found = std::find(names.begin(), names.end(), item.kind == Kind::text ? item.text : std::string());
       if (found == names.end())
-        reader.fault(item.place, fmt::format("wrap of {} is {}, expected repeat, clamp or mirror", name, shown_name(item.text)),
+        reader.fault(item.place,
+                     fmt::format("wrap of {} is {}, expected repeat, clamp or mirror", name, shown_name(item.text)),
                      suggestion(item.text, names));
       else
         texture.wrap = TextureWrap(found - names.begin());
@@ -115,7 +118,8 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
     reader.fault(value.place, fmt::format("the texture of {} does not say in which colour space it is", name),
                  "add \"space\": \"srgb_texture\" for most pictures, \"lin_rec709\" for most OpenEXR files");
   if (is_udim(texture.path) && (texture.repeat != std::array<float, 2>{1, 1} || texture.wrap != TextureWrap::repeat))
-    reader.fault(value.place, fmt::format("the texture of {} has <UDIM> and repeat or wrap, expected one of them", name));
+    reader.fault(value.place,
+                 fmt::format("the texture of {} has <UDIM> and repeat or wrap, expected one of them", name));
   if (reader.good) to = std::move(texture);
   return reader.good;
 }

@@ -34,7 +34,9 @@ const std::vector<std::string>& wrap_names() {
   return names;
 }
 
-bool is_udim(const std::string& path) { return path.find(udim_mark) != std::string::npos; }
+bool is_udim(const std::string& path) {
+  return path.find(udim_mark) != std::string::npos;
+}
 
 std::vector<TextureFile> texture_files(const std::string& path) {
   std::vector<TextureFile> files;

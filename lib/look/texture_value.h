@@ -11,8 +11,8 @@ namespace sateen {
 /// A texture that stands in place of a value of a look:
 ///     {"texture": "print.png", "space": "srgb_texture", "repeat": [4, 4]}
 /// The value at a point is pixel * scale + offset, after a colour's pixels have been brought from `space` into the
-/// working space; numbers are the pixels' first channel. `<UDIM>` in the path stands for 1001 + u + 10 v: one file for
-/// each unit square of the UVs.
+/// working space; numbers are the pixels' first channel. `<UDIM>` in the path stands for 1001 + u + 10 v: one file
+/// for each unit square of the UVs.
 struct TextureValue {
   std::string path;   ///< absolute
   std::string space;  ///< of a colour's pixels, never empty; of numbers: empty
@@ -24,8 +24,8 @@ struct TextureValue {
 
 bool is_udim(const std::string& path);
 
-/// The files behind a path: one, or those of a UDIM set that are there, by number. u and v are those of the lower left
-/// corner of the unit square.
+/// The files behind a path: one, or those of a UDIM set that are there, by number. u and v are those of the lower
+/// left corner of the unit square.
 struct TextureFile {
   int u = 0, v = 0;
   std::filesystem::path path;
@@ -35,8 +35,8 @@ std::vector<TextureFile> texture_files(const std::string& path);
 /// As it stands in the look file `look_file`, from whose folder the path is written.
 std::string texture_text(const TextureValue& texture, const std::string& look_file);
 
-/// Equal for textures that give equal values: with a hash of the files' contents in place of the path. InputError where
-/// they cannot be read.
+/// Equal for textures that give equal values: with a hash of the files' contents in place of the path. InputError
+/// where they cannot be read.
 std::string texture_identity(const TextureValue& texture);
 
 /// "repeat", "clamp", "mirror", in the order of the enum.

@@ -28,7 +28,9 @@ bool FabricMaps::any_numbers() const {
                      [&](const NumberMap& n) { return (this->*n.map)[0] || (this->*n.map)[1]; });
 }
 
-bool FabricMaps::any_values() const { return A[0] || A[1] || any_numbers(); }
+bool FabricMaps::any_values() const {
+  return A[0] || A[1] || any_numbers();
+}
 
 PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& footprint) {
   PointValues values = maps.constant;
@@ -42,7 +44,8 @@ PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& f
     }
   for (const NumberMap& n : number_maps)
     for (size_t family = 0; family < 2; ++family)
-      if (const FabricMaps::Map& map = (maps.*n.map)[family]) map->look_up(uv, footprint, &(values.family[family].*n.value));
+      if (const FabricMaps::Map& map = (maps.*n.map)[family])
+        map->look_up(uv, footprint, &(values.family[family].*n.value));
   if (maps.coverage[0] || maps.coverage[1]) {
     const float sum = values.family[0].coverage + values.family[1].coverage;
     if (sum > 1)

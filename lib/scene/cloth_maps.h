@@ -10,7 +10,7 @@ namespace sateen {
 /// The textures of one fabric, by warp and weft; null where the value is the same everywhere.
 struct FabricMaps {
   using Map = std::shared_ptr<const UvTexture>;
-  std::array<Map, 2> A;  ///< solved already where the look gives a colour
+  std::array<Map, 2> A;                                     ///< solved already where the look gives a colour
   std::array<Map, 2> coverage, k_d, eta, gamma_s, gamma_v;  ///< radians
   Map warp_angle;        ///< cosine and sine, so that 179 and -179 degrees filter to 180
   PointValues constant;  ///< what no texture says

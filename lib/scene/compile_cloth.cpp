@@ -107,8 +107,10 @@ struct MapReader {
       }
       return inside;
     };
-    return read(path, fmt::format("the nearest that this cloth can show, {:.3g} to {:.3g} in every channel, is taken",
-                                  surface, surface + volume), use);
+    return read(path,
+                fmt::format("the nearest that this cloth can show, {:.3g} to {:.3g} in every channel, is taken",
+                            surface, surface + volume),
+                use);
   }
 };
 
@@ -120,10 +122,10 @@ void read_coverage(MapReader& reader, FabricMaps& maps) {
   for (size_t f = 0; f < 2; ++f)
     maps.coverage[f] = reader.number(paths[f], 0, both ? 1 : 1 - families[1 - f]->coverage, 1);
   if (both && maps.coverage[0]->high[0] + maps.coverage[1]->high[0] > 1.0001f)
-    reader.warnings.push_back(
-        fmt::format("{}: the coverage of warp and weft reaches {:.3g} and {:.3g}: where they add up to more than 1, both "
-                    "are made smaller", reader.look.textures.at(paths[0]).origin, maps.coverage[0]->high[0],
-                    maps.coverage[1]->high[0]));
+    reader.warnings.push_back(fmt::format(
+        "{}: the coverage of warp and weft reaches {:.3g} and {:.3g}: where they add up to more than 1, both "
+        "are made smaller",
+        reader.look.textures.at(paths[0]).origin, maps.coverage[0]->high[0], maps.coverage[1]->high[0]));
 }
 
 /// The look with the textures' means in their place, and the textures of its numbers.
@@ -194,7 +196,8 @@ Fabric compile_mapped(const Look& look, const ColorManager& colors, FabricParts 
   }
   for (size_t f = 0; f < 2; ++f) {
     const std::string name = f == 0 ? "warp" : "weft";
-    maps.A[f] = reader.has(name + ".color") ? reader.solved_color(name + ".color", normal) : reader.raw_scale(name + ".A");
+    maps.A[f] =
+        reader.has(name + ".color") ? reader.solved_color(name + ".color", normal) : reader.raw_scale(name + ".A");
     if (!maps.A[f]) continue;
     const std::array<float, 3>& c = maps.A[f]->mean;
     (f == 0 ? mean.warp : mean.weft).A = {Color(c[0], c[1], c[2]), working};

@@ -21,30 +21,31 @@ enum class Backdrop {
 
 /// Everything that is rendered, compiled; const while rendering. A copy shares mesh and ray tracer.
 struct Scene {
-  std::shared_ptr<const Mesh> mesh;      ///< a stable address: the ray tracer shares its arrays
+  std::shared_ptr<const Mesh> mesh;  ///< a stable address: the ray tracer shares its arrays
   std::shared_ptr<const RayTracer> rays;
   Fabric front;
-  std::optional<Fabric> back;            ///< of the cloth; empty: the same as the front
+  std::optional<Fabric> back;  ///< of the cloth; empty: the same as the front
   Environment environment;
   Camera camera;
   Backdrop backdrop = Backdrop::none;
-  Color backdrop_color{0, 0, 0};         ///< working space
-  bool has_gaps = false;                 ///< some look lets light straight through
-  bool self_shadowing = true;            ///< false: no part of the cloth keeps light from another
-  std::shared_ptr<const SideMaps> front_maps, back_maps;  ///< null where nothing varies; the back's own, if it has one
-  bool has_maps = false;                 ///< some side has maps
+  Color backdrop_color{0, 0, 0};  ///< working space
+  bool has_gaps = false;          ///< some look lets light straight through
+  bool self_shadowing = true;     ///< false: no part of the cloth keeps light from another
+  std::shared_ptr<const SideMaps> front_maps,
+      back_maps;          ///< null where nothing varies; the back's own, if it has one
+  bool has_maps = false;  ///< some side has maps
 };
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
 struct ClothPoint {
   SurfacePoint surface;
-  Frame frame;            ///< may be left-handed: F does not care, and mirrored UVs stay mirrored
-  Vec3 facing;            ///< geometric normal on the viewer's side
-  const Fabric* fabric;   ///< of the side that is seen
-  Vec3 wo;                ///< towards the viewer, cloth frame; wo.z > 0
-  float gap;              ///< share of the area here that light and sight pass
-  PointValues values;     ///< what textures say here
-  bool mapped;            ///< whether they say anything; false: `values` hold nothing
+  Frame frame;           ///< may be left-handed: F does not care, and mirrored UVs stay mirrored
+  Vec3 facing;           ///< geometric normal on the viewer's side
+  const Fabric* fabric;  ///< of the side that is seen
+  Vec3 wo;               ///< towards the viewer, cloth frame; wo.z > 0
+  float gap;             ///< share of the area here that light and sight pass
+  PointValues values;    ///< what textures say here
+  bool mapped;           ///< whether they say anything; false: `values` hold nothing
 
   const PointValues* own_values() const { return mapped ? &values : nullptr; }
 };

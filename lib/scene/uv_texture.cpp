@@ -68,7 +68,9 @@ Image convert(const Image& pixels, const PixelUse& use, PixelCounts& counts, Sum
 
 }  // namespace
 
-bool UvTexture::covers(const Vec2& uv) const { return tile_at(*this, uv) != nullptr; }
+bool UvTexture::covers(const Vec2& uv) const {
+  return tile_at(*this, uv) != nullptr;
+}
 
 void UvTexture::look_up(const Vec2& uv, const Footprint& footprint, float* values) const {
   const Tile* tile = tile_at(*this, uv);

@@ -41,8 +41,8 @@ struct PixelCounts {
 };
 
 /// Reads the picture, or the tiles, of a look's texture. Colours are brought into the working space pixel by pixel,
-/// before any filtering: encoded spaces must not be averaged as they are. InputError where a file cannot be read or the
-/// space is not known, with the texture's origin and `field`.
+/// before any filtering: encoded spaces must not be averaged as they are. InputError where a file cannot be read or
+/// the space is not known, with the texture's origin and `field`.
 UvTexture read_uv_texture(const TextureValue& value, const std::string& field, const ColorManager& colors,
                           const PixelUse& use, PixelCounts& counts);
 

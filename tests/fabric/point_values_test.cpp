@@ -28,7 +28,8 @@ Look satin(float gamma_s, float gamma_v, float k_d, float eta, float warp_covera
 }
 
 Vec3 direction(int i, int n) {
-  const float z = 0.01f + 0.98f * (float(i) + 0.5f) / float(n), angle = 2.399963f * float(i), r = std::sqrt(1 - z * z);
+  const float z = 0.01f + 0.98f * (float(i) + 0.5f) / float(n), angle = 2.399963f * float(i),
+              r = std::sqrt(1 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
@@ -38,12 +39,13 @@ TEST(PointValues, MakeThreadsThoseOfALookThatWasCompiledWithThem) {
   parts.narrowest = {radians(2), radians(2)};  // the same tangents for all of them
   const Fabric base = compile_fabric(satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f), same_space, parts);
   Fabric mapped = base;
-  mapped.varying = std::make_shared<const VaryingThreads>(VaryingThreads{
-      base.threads, {family_values(satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f).warp),
-                     family_values(satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f).weft)}});
+  mapped.varying = std::make_shared<const VaryingThreads>(
+      VaryingThreads{base.threads,
+                     {family_values(satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f).warp),
+                      family_values(satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f).weft)}});
   const auto here = std::make_unique<FabricView>(), there = std::make_unique<FabricView>();
-  const Look looks[] = {satin(2, 4, 0, 1.3f, 0.9f, 0.1f), satin(30, 60, 1, 2, 0.2f, 0.3f), satin(5, 9, 0.5f, 1, 0, 0.7f),
-                        satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f)};
+  const Look looks[] = {satin(2, 4, 0, 1.3f, 0.9f, 0.1f), satin(30, 60, 1, 2, 0.2f, 0.3f),
+                        satin(5, 9, 0.5f, 1, 0, 0.7f), satin(8, 16, 0.3f, 1.46f, 0.5f, 0.4f)};
   int compared = 0;
   for (const Look& look : looks) {
     const Fabric compiled = compile_fabric(look, same_space, parts);
@@ -57,7 +59,8 @@ TEST(PointValues, MakeThreadsThoseOfALookThatWasCompiledWithThem) {
       prepare_threads(mapped, wo, *here, &point);
       prepare_threads(compiled, wo, *there);
       for (int i = 0; i < 60; ++i) {
-        const ThreadSums<float> a = evaluate_parts(*here, direction(i, 60)), b = evaluate_parts(*there, direction(i, 60));
+        const ThreadSums<float> a = evaluate_parts(*here, direction(i, 60)),
+                                b = evaluate_parts(*there, direction(i, 60));
         for (size_t f = 0; f < 2; ++f) {
           EXPECT_NEAR(a.surface[f], b.surface[f], 1e-5f * b.surface[f] + 1e-12f);
           EXPECT_NEAR(a.volume[f], b.volume[f], 1e-5f * b.volume[f] + 1e-12f);

@@ -14,7 +14,9 @@ namespace {
 
 using namespace sateen;
 
-double bound(double tests) { return sidak_deviate(1e-3, tests); }
+double bound(double tests) {
+  return sidak_deviate(1e-3, tests);
+}
 
 const MappedLooks& made() {
   static const MappedLooks looks;
@@ -32,7 +34,8 @@ Scene with_side(Mesh mesh, CompiledSide side, Environment environment) {
 }
 
 Environment soft_map() {
-  return map_of(16, 8, [](int x, int y) { return Color(0.2f + 0.1f * float((3 * x + 5 * y) % 7), 0.5f, 1.0f / float(1 + y)); });
+  return map_of(
+      16, 8, [](int x, int y) { return Color(0.2f + 0.1f * float((3 * x + 5 * y) % 7), 0.5f, 1.0f / float(1 + y)); });
 }
 
 /// The drape from the front, small.
@@ -126,7 +129,9 @@ TEST(Maps, OfStripesShowTheirMeanFromAfar) {
           "weft": {"A": [0.2, 0.2, 0.2]}})");
   Scene scene = with_side(floor_quad(), side, constant_map());
   const Fabric mean =
-      made().compiled(R"({"color_space": "acescg", "warp": {"A": [0.3, 0.2, 0.4]}, "weft": {"A": [0.2, 0.2, 0.2]}})", false)
+      made()
+          .compiled(R"({"color_space": "acescg", "warp": {"A": [0.3, 0.2, 0.4]}, "weft": {"A": [0.2, 0.2, 0.2]}})",
+                    false)
           .fabric;
   // By filtering alone, of an area wider than the cloth.
   const PointValues values = values_at(scene.front_maps->own, Vec2(0.1f, 0.1f), {Vec2(4, 0), Vec2(0, 4)});
@@ -158,11 +163,12 @@ TEST(Pattern, BlendsBothLooksInTheSharesOfTheMask) {
   const Fabric ground = made().compiled(fmt::format("{{{}}}", plain_threads), false).fabric;
   FabricParts parts;
   parts.table = false;
-  const Fabric woven = compile_side(read_look((made().folder.path / "woven.json").string()), made().colors, parts).fabric;
+  const Fabric woven =
+      compile_side(read_look((made().folder.path / "woven.json").string()), made().colors, parts).fabric;
   const float turn = woven.warp_angle;
   const Vec3 local(view.x, -view.z, view.y);
-  const Vec3 turned(local.x * std::cos(turn) + local.y * std::sin(turn), local.y * std::cos(turn) - local.x * std::sin(turn),
-                    local.z);
+  const Vec3 turned(local.x * std::cos(turn) + local.y * std::sin(turn),
+                    local.y * std::cos(turn) - local.x * std::sin(turn), local.z);
   const Color a = reflectance(ground, local), b = reflectance(woven, turned);
   for (const double share : {0.0, 0.3, 1.0}) {
     Scene scene = with_side(floor_quad(), made().compiled(pattern_of(fmt::format("{}", share))), constant_map());
@@ -177,7 +183,8 @@ TEST(Pattern, BlendsBothLooksInTheSharesOfTheMask) {
 
 TEST(Pattern, ShowsEachLookWhereTheMaskSaysSo) {
   made().texture("half.exr", 64, 1, [](int x, int) { return Color(x < 32 ? 0.0f : 1.0f); });
-  Scene scene = with_side(floor_quad(), made().compiled(pattern_of(R"({"texture": "half.exr", "wrap": "clamp"})")), constant_map());
+  Scene scene = with_side(floor_quad(), made().compiled(pattern_of(R"({"texture": "half.exr", "wrap": "clamp"})")),
+                          constant_map());
   for (const bool right : {false, true}) {
     scene.camera = distant_camera(Vec3(right ? 0.25f : -0.25f, 0, 0), Vec3(0, 1, 0), 0.1f);
     const auto scratch = std::make_unique<PathScratch>();
@@ -214,7 +221,8 @@ TEST(MappedGaps, ShadowByTheirShareAndShowWhatIsBehind) {
     for (int roofs = 0; roofs < 2; ++roofs) {
       Mesh mesh = floor_quad();
       // So wide that all of the sun's rays to the point meet its half of the texture.
-      for (int k = 0; k < roofs; ++k) add_quad(mesh, Vec3(right ? -40.0f : 40.0f, 0.2f, 0), Vec3(200, 0, 0), Vec3(0, 0, -200));
+      for (int k = 0; k < roofs; ++k)
+        add_quad(mesh, Vec3(right ? -40.0f : 40.0f, 0.2f, 0), Vec3(200, 0, 0), Vec3(0, 0, -200));
       Scene scene = with_side(std::move(mesh), side, sun.map());
       scene.camera = distant_camera(Vec3(right ? 0.25f : -0.25f, 0, 0), Vec3(0.4f, 0.15f, 0), 1);
       scene.camera.position = Vec3((right ? 0.25f : -0.25f) + 0.04f, 0.015f, 0);
@@ -229,8 +237,11 @@ TEST(MappedGaps, ShadowByTheirShareAndShowWhatIsBehind) {
 TEST(MappedGaps, LoseNothingUnderConstantLight) {
   // What a sheer cloth reflects and what it lets pass, before the same light: R + gap.
   made().texture("sheer.exr", 64, 1, [](int x, int) { return Color(x < 32 ? 0.1f : 0.4f); });
-  Scene scene = with_side(floor_quad(), made().compiled(
-      R"({"warp": {"coverage": {"texture": "sheer.exr", "wrap": "clamp"}}, "weft": {"coverage": 0.3}})"), constant_map());
+  Scene scene = with_side(
+      floor_quad(),
+      made().compiled(
+          R"({"warp": {"coverage": {"texture": "sheer.exr", "wrap": "clamp"}}, "weft": {"coverage": 0.3}})"),
+      constant_map());
   scene.backdrop = Backdrop::environment;
   const Vec3 view = normalize(Vec3(0.3f, 1, 0.2f));
   scene.camera = distant_camera(Vec3(0.25f, 0, 0), view, 0.05f);
@@ -241,7 +252,8 @@ TEST(MappedGaps, LoseNothingUnderConstantLight) {
 }
 
 TEST(Maps, LetAllStrategiesAgreeOnADrape) {
-  made().texture("patches.exr", 16, 16, [](int x, int y) { return Color(0.1f + 0.8f * float((x / 4 + y / 4) % 2), 0.5f, 0.3f); });
+  made().texture("patches.exr", 16, 16,
+                 [](int x, int y) { return Color(0.1f + 0.8f * float((x / 4 + y / 4) % 2), 0.5f, 0.3f); });
   const Scene scene = draped(made().compiled(
       R"({"warp": {"A": {"texture": "patches.exr", "space": "lin_rec709", "scale": 0.4, "repeat": [5, 5]}, "coverage": 0.5,
                    "gamma_s_deg": {"texture": "patches.exr", "scale": 20, "repeat": [5, 5]}, "offsets_deg": [-25, 25]},
@@ -259,7 +271,8 @@ TEST(Maps, LetAllStrategiesAgreeOnADrape) {
 }
 
 TEST(Maps, GiveASampleTheBitsThatItHasAlone) {
-  made().texture("patches.exr", 16, 16, [](int x, int y) { return Color(0.1f + 0.8f * float((x / 4 + y / 4) % 2), 0.5f, 0.3f); });
+  made().texture("patches.exr", 16, 16,
+                 [](int x, int y) { return Color(0.1f + 0.8f * float((x / 4 + y / 4) % 2), 0.5f, 0.3f); });
   const Scene scene = draped(made().compiled(pattern_of(R"({"texture": "patches.exr", "repeat": [3, 2]})")));
   const auto scratch = std::make_unique<PathScratch>();
   std::vector<SampleId> ids;

@@ -38,7 +38,8 @@ TEST(TextureValue, GivesWayToAValueAndTakesItsPlace) {
   use_source_tree();
   const ScratchFolder folder;
   folder.write("a.png", "a");
-  folder.write("parent.json", R"({"color": {"texture": "a.png", "space": "srgb_texture"}, "warp": {"k_d": {"texture": "a.png"}}})");
+  folder.write("parent.json",
+               R"({"color": {"texture": "a.png", "space": "srgb_texture"}, "warp": {"k_d": {"texture": "a.png"}}})");
   const auto child = [&](const std::string& members) {
     return parse_look("{\"inherits\": \"parent.json\"" + members + "}", folder.file("child.json"));
   };
@@ -50,7 +51,8 @@ TEST(TextureValue, GivesWayToAValueAndTakesItsPlace) {
   EXPECT_FALSE(raw.textures.contains("warp.color"));
   EXPECT_TRUE(raw.textures.contains("weft.color"));
   // A family that says its own colour keeps it beside the shorthand.
-  const Look both = child(R"(, "color": [0.5, 0.5, 0.5], "weft": {"color": {"texture": "a.png", "space": "acescg"}})");
+  const Look both =
+      child(R"(, "color": [0.5, 0.5, 0.5], "weft": {"color": {"texture": "a.png", "space": "acescg"}})");
   EXPECT_EQ(both.textures.at("weft.color").space, "acescg");
   EXPECT_FALSE(both.textures.contains("warp.color"));
   Look set = plain;
@@ -67,7 +69,8 @@ TEST(TextureValue, CountsInTheHashByWhatTheFileHolds) {
   folder.write("b.png", "one");
   folder.write("c.png", "other");
   const auto hash = [&](const std::string& name, const std::string& more = "") {
-    return look_hash(parse_look("{\"warp\": {\"k_d\": {\"texture\": \"" + name + "\"" + more + "}}}", folder.file("silk.json")));
+    return look_hash(
+        parse_look("{\"warp\": {\"k_d\": {\"texture\": \"" + name + "\"" + more + "}}}", folder.file("silk.json")));
   };
   EXPECT_EQ(hash("a.png"), hash("b.png"));
   EXPECT_NE(hash("a.png"), hash("c.png"));

@@ -20,7 +20,8 @@ TEST(ClothMaps, GiveEveryFieldItsPixels) {
     "warp": {"A": {"texture": "halves.exr", "space": "lin_rec709", "scale": 2, "offset": 0.1},
              "coverage": {"texture": "halves.exr", "scale": 0.5}, "k_d": {"texture": "halves.exr"}},
     "weft": {"coverage": 0.3, "eta": {"texture": "halves.exr", "offset": 1}, "gamma_s_deg": {"texture": "halves.exr", "scale": 20},
-             "gamma_v_deg": {"texture": "halves.exr", "scale": 40, "repeat": [2, 1]}}})", false);
+             "gamma_v_deg": {"texture": "halves.exr", "scale": 40, "repeat": [2, 1]}}})",
+                                          false);
   ASSERT_TRUE(side.maps);
   EXPECT_TRUE(side.warnings.empty()) << side.warnings.front();
   const PointValues left = values_at(side.maps->own, Vec2(0.25f, 0.5f), {}),
@@ -49,8 +50,8 @@ TEST(ClothMaps, ConvertEncodedColoursBeforeTheyAreFiltered) {
   Image checks(16, 16, 3);
   for (size_t i = 0; i < checks.pixels.size(); ++i) checks.pixels[i] = float((i / 3 % 16 + i / 48) % 2);
   write_display_image(made.folder.path / "checks.png", checks);
-  const CompiledSide side = made.compiled(
-      R"({"warp": {"A": {"texture": "checks.png", "space": "srgb_texture"}}})", false);
+  const CompiledSide side =
+      made.compiled(R"({"warp": {"A": {"texture": "checks.png", "space": "srgb_texture"}}})", false);
   // Half of the light, not the light of half the code, which is 0.214.
   const PointValues mean = values_at(side.maps->own, Vec2(0.3f, 0.3f), wide);
   const Color half = made.colors.to_working(Color(0.5f), "lin_rec709");
@@ -94,10 +95,16 @@ TEST(ClothMaps, CountPixelsThatAreOutOfRange) {
       R"({"warp": {"k_d": {"texture": "wild.exr"}, "gamma_s_deg": {"texture": "wild.exr", "scale": 20}}})", false);
   std::string all;
   for (const std::string& warning : side.warnings) all += warning + "\n";
-  EXPECT_NE(all.find("mapped.json:1: 14 of the 64 pixels of the texture of warp.k_d are out of range: brought into 0 to 1"),
-            std::string::npos) << all;
-  EXPECT_NE(all.find("8 of the 64 pixels of the texture of warp.k_d are not finite and count as 0"), std::string::npos) << all;
-  EXPECT_NE(all.find("of the texture of warp.gamma_s_deg are out of range: brought into 0.5 to 90"), std::string::npos) << all;
+  EXPECT_NE(
+      all.find("mapped.json:1: 14 of the 64 pixels of the texture of warp.k_d are out of range: brought into 0 to 1"),
+      std::string::npos)
+      << all;
+  EXPECT_NE(all.find("8 of the 64 pixels of the texture of warp.k_d are not finite and count as 0"),
+            std::string::npos)
+      << all;
+  EXPECT_NE(all.find("of the texture of warp.gamma_s_deg are out of range: brought into 0.5 to 90"),
+            std::string::npos)
+      << all;
   EXPECT_FLOAT_EQ(values_at(side.maps->own, Vec2(0.4375f, 0.3f), {}).family[0].k_d, 1);
 }
 
@@ -105,33 +112,42 @@ TEST(ClothMaps, SolveColourPixelByPixel) {
   const MappedLooks made;
   made.texture("c.exr", 2, 1, [](int x, int) { return x == 0 ? Color(0.6f, 0.4f, 0.2f) : Color(0.3f, 0.3f, 0.5f); });
   const char* threads = R"("k_d": 0.3, "gamma_s_deg": 8)";
-  const CompiledSide side = made.compiled(fmt::format(
-      R"({{"color": {{"texture": "c.exr", "space": "lin_rec709", "wrap": "clamp"}}, "warp": {{{0}}}, "weft": {{{0}}}}})", threads), false);
+  const CompiledSide side = made.compiled(
+      fmt::format(
+          R"({{"color": {{"texture": "c.exr", "space": "lin_rec709", "wrap": "clamp"}}, "warp": {{{0}}}, "weft": {{{0}}}}})",
+          threads),
+      false);
   EXPECT_TRUE(side.warnings.empty());
-  const CompiledSide plain = made.compiled(
-      fmt::format(R"({{"color": [0.6, 0.4, 0.2], "warp": {{{0}}}, "weft": {{{0}}}}})", threads), false);
+  const CompiledSide plain =
+      made.compiled(fmt::format(R"({{"color": [0.6, 0.4, 0.2], "warp": {{{0}}}, "weft": {{{0}}}}})", threads), false);
   EXPECT_FALSE(plain.maps);
   const PointValues left = values_at(side.maps->own, Vec2(0.2f, 0.5f), {});
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(left.A[0][c], plain.fabric.A[0][c], 1e-3f);
   EXPECT_EQ(side.maps->own.A[0], side.maps->own.A[1]) << "one picture, kept once";
   // What no A can show is taken as near as it gets, and counted.
-  const CompiledSide dark = made.compiled(
-      R"({"color": {"texture": "c.exr", "space": "lin_rec709", "scale": 0.01}})", false);
+  const CompiledSide dark =
+      made.compiled(R"({"color": {"texture": "c.exr", "space": "lin_rec709", "scale": 0.01}})", false);
   ASSERT_EQ(dark.warnings.size(), 1u);
-  EXPECT_NE(dark.warnings[0].find("2 of the 2 pixels of the texture of warp.color"), std::string::npos) << dark.warnings[0];
+  EXPECT_NE(dark.warnings[0].find("2 of the 2 pixels of the texture of warp.color"), std::string::npos)
+      << dark.warnings[0];
 }
 
 TEST(ClothMaps, SayWhatIsWrongWithATextureAndWhere) {
   const MappedLooks made;
   std::ofstream(made.folder.path / "broken.exr") << "no picture";
-  EXPECT_NE(made.error_in(R"({"warp": {"k_d": {"texture": "broken.exr"}}})").find("mapped.json:1: error: the texture of warp.k_d"),
-            std::string::npos) << made.error_in(R"({"warp": {"k_d": {"texture": "broken.exr"}}})");
+  EXPECT_NE(made.error_in(R"({"warp": {"k_d": {"texture": "broken.exr"}}})")
+                .find("mapped.json:1: error: the texture of warp.k_d"),
+            std::string::npos)
+      << made.error_in(R"({"warp": {"k_d": {"texture": "broken.exr"}}})");
   made.texture("k.exr", 2, 2, [](int, int) { return Color(0.5f); });
-  EXPECT_NE(made.error_in(R"({"warp": {"A": {"texture": "k.exr", "space": "srgb_textur"}}})").find("srgb_texture"), std::string::npos);
-  EXPECT_NE(made.error_in(R"({"warp": {"coverage": {"texture": "k.exr", "scale": 0}}, "weft": {"coverage": 0}})").find("no threads"),
+  EXPECT_NE(made.error_in(R"({"warp": {"A": {"texture": "k.exr", "space": "srgb_textur"}}})").find("srgb_texture"),
+            std::string::npos);
+  EXPECT_NE(made.error_in(R"({"warp": {"coverage": {"texture": "k.exr", "scale": 0}}, "weft": {"coverage": 0}})")
+                .find("no threads"),
             std::string::npos);
   made.look(R"({"pattern": {"mask": 0.5, "look": "linen_plain"}})", "other.json");
-  EXPECT_NE(made.error_in(R"({"pattern": {"mask": 0.5, "look": "other.json"}})").find("has a pattern of its own"), std::string::npos);
+  EXPECT_NE(made.error_in(R"({"pattern": {"mask": 0.5, "look": "other.json"}})").find("has a pattern of its own"),
+            std::string::npos);
 }
 
 TEST(Footprint, IsThatOfANeighbouringPixel) {

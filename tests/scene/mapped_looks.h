@@ -19,7 +19,8 @@ struct MappedLooks {
   sateen::ColorManager colors{"built-in"};
 
   /// An OpenEXR file of floats, top row first, in linear Rec.709.
-  void texture(const std::string& name, int width, int height, const std::function<sateen::Color(int, int)>& color) const {
+  void texture(const std::string& name, int width, int height,
+               const std::function<sateen::Color(int, int)>& color) const {
     sateen::Image image(width, height, 3);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)

@@ -4,9 +4,9 @@
 
 namespace sateen {
 
-/// What the OpenImageIO module offers to image/file.cpp and image/texture.cpp, opened when a picture file or a texture
-/// is first touched: OpenImageIO brings 250 shared libraries and 0.3 s of linking, which `--help` and look checks do
-/// not owe.
+/// What the OpenImageIO module offers to image/file.cpp and image/texture.cpp, opened when a picture file or a
+/// texture is first touched: OpenImageIO brings 250 shared libraries and 0.3 s of linking, which `--help` and look
+/// checks do not owe.
 struct ImageFileFunctions {
   ImageFileInfo (*read_info)(const std::filesystem::path&);
   Image (*read_pixels)(const std::filesystem::path&, const ImageLimits&, ImageFileInfo*);

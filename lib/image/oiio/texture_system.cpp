@@ -88,7 +88,9 @@ class MemoryInput final : public OIIO::ImageInput {
   int level_ = 0;
 };
 
-OIIO::ImageInput* create_input() { return new MemoryInput; }
+OIIO::ImageInput* create_input() {
+  return new MemoryInput;
+}
 
 Level level_of(const Image& image, OIIO::TypeDesc type) {
   Level level{image.width, image.height, std::vector<unsigned char>(image.pixels.size() * type.size())};
