@@ -73,6 +73,8 @@ void check_look(Finding& f) {
   const Look look = read_look(f.path);
   const MeasuredLook measured = measure_look(look, false);
   f.facts.push_back(look.title.empty() ? look.name : look.title);
+  if (!look.textures.empty()) f.facts.push_back(fmt::format("{} of its values are textures", look.textures.size()));
+  f.notices.insert(f.notices.end(), measured.warnings.begin(), measured.warnings.end());
   if (measured.fabric.gap > 0)
     f.facts.push_back(fmt::format("{:.1f} % of its area are gaps that light passes", 100 * measured.fabric.gap));
   float brightest = 0;

@@ -114,10 +114,13 @@ int look_check(const std::vector<std::string>& words) {
   JsonWriter w;
   w.open_object().key("looks").open_list();
   std::vector<std::string> warnings;
-  for (const Look& look : read_all(names, overrides))
-    for (const LobeSummary& s : print_albedo(measure_look(look, false), text, w))
+  for (const Look& look : read_all(names, overrides)) {
+    const MeasuredLook measured = measure_look(look, false);
+    warnings.insert(warnings.end(), measured.warnings.begin(), measured.warnings.end());
+    for (const LobeSummary& s : print_albedo(measured, text, w))
       warnings.push_back(fmt::format("{}: albedo {:.3f} {:.3f} {:.3f} at {} degrees passes 1", look.name, s.albedo.x,
                                      s.albedo.y, s.albedo.z, s.view.text()));
+  }
   w.close().key("warnings").open_list();
   for (const std::string& warning : warnings) w.value(warning);
   w.close().close();

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "image/color.h"
+#include "scene/compile_cloth.h"
 
 namespace sateen::app {
 
@@ -29,7 +30,14 @@ MeasuredLook measure_look(const Look& look, bool with_table, const std::string& 
   FabricParts parts;
   parts.table = with_table;
   parts.threads = thread_count(0);
-  measured.fabric = compile_fabric(look, convert, parts);
+  if (look.textures.empty() && look.pattern_look.empty()) {
+    measured.fabric = compile_fabric(look, convert, parts);
+    return measured;
+  }
+  colors = std::make_unique<ColorManager>(ocio, measured.space);
+  CompiledSide side = compile_side(look, *colors, parts);
+  measured.fabric = std::move(side.fabric);
+  measured.warnings = std::move(side.warnings);
   return measured;
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe]...
+# Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe|effects]...
 # A quarter of an hour on one core. SATEEN: the program (build/bin/sateen). GARMENTS and MAPS: folders with the
 # garments of MakeHuman and HDR maps by Greg Zaal, both CC0; without them those pictures are left as they are.
 set -euo pipefail
@@ -71,5 +71,17 @@ cost() {
   echo "$out/cost.png"
 }
 
-[ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe cost
+# Pairs without and with what textures, patterns and gaps do.
+effects() {
+  local pair=(-r 640 360 -s 48)
+  picture effect_maps_off -l printed_silk --set color=0.72,0.62,0.5 "${pair[@]}"
+  picture effect_maps_on -l printed_silk "${pair[@]}"
+  picture effect_pattern_off -l silk_damask --set pattern.mask=0 "${pair[@]}"
+  picture effect_pattern_on -l silk_damask "${pair[@]}"
+  # Without gaps the threads lie close: the same ones over the whole of the area.
+  picture effect_gaps_off -l silk_organza --set warp.coverage=0.5 --set weft.coverage=0.5 "${pair[@]}"
+  picture effect_gaps_on -l silk_organza "${pair[@]}"
+}
+
+[ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe cost effects
 for part in "$@"; do "$part"; done

@@ -42,15 +42,19 @@ Color solve_volume_color(const Color& color, const Albedo& normal, const std::st
     if (!(A[c] >= 0) || !(A[c] <= 1))
       throw InputError(
           fmt::format("{}.color is ({:.4g}, {:.4g}, {:.4g}) in the working space, reachable is {:.4g} to {:.4g} in "
-                      "every channel", family, color.x, color.y, color.z, normal.surface, normal.surface + volume),
-          A[c] < 0 ? "the surface lobe alone is brighter: raise the colour, or lower eta" : "lower the colour, or raise k_d");
+                      "every channel",
+                      family, color.x, color.y, color.z, normal.surface, normal.surface + volume),
+          A[c] < 0 ? "the surface lobe alone is brighter: raise the colour, or lower eta"
+                   : "lower the colour, or raise k_d");
   }
   return A;
 }
 
 }  // namespace
 
-Color same_space(const Color& value, const std::string&) { return value; }
+Color same_space(const Color& value, const std::string&) {
+  return value;
+}
 
 Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
   const int phis = thetas / 2;
@@ -62,8 +66,8 @@ Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
     for (int j = 0; j < phis; ++j) {
       const double theta = (i + 0.5) * step - pi / 2.0, phi = (j + 0.5) * step_phi - pi / 2.0;
       const double c = std::cos(theta), weight = c * step * step_phi;
-      const ThreadSums<float> s = scatter<float>(threads, view, float(std::sin(theta)), float(c * std::sin(phi)),
-                                                 float(c * std::cos(phi)));
+      const ThreadSums<float> s =
+          scatter<float>(threads, view, float(std::sin(theta)), float(c * std::sin(phi)), float(c * std::cos(phi)));
       surface += weight * (double(s.surface[0]) + s.surface[1]);
       for (int family = 0; family < 2; ++family) volume[family] += weight * s.volume[family];
     }
@@ -78,10 +82,12 @@ Color albedo_color(const Fabric& fabric, const Vec3& wo, int thetas) {
 Fabric compile_fabric(const Look& look, const ToWorking& to_working, const FabricParts& parts) {
   Fabric fabric;
   fabric.name = look.name;
-  const auto quadrature = [&](const ThreadFamily& f) {
-    return render_quadrature(f.offsets_deg, f.lengths, narrowest_lobe(f), double(radians(look.masking_width_deg)));
+  const auto quadrature = [&](const ThreadFamily& f, float narrowest) {
+    return render_quadrature(f.offsets_deg, f.lengths, std::min(narrowest_lobe(f), double(narrowest)),
+                             double(radians(look.masking_width_deg)));
   };
-  const std::vector<Tangent> warp = quadrature(look.warp), weft = quadrature(look.weft);
+  const std::vector<Tangent> warp = quadrature(look.warp, parts.narrowest[0]),
+                             weft = quadrature(look.weft, parts.narrowest[1]);
   fabric.threads = compile_threads<float>(look, warp, weft);
   fabric.gap = fabric.threads.gap;
   fabric.warp_angle = radians(look.warp_angle_deg);
@@ -110,9 +116,19 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
   return fabric;
 }
 
-void prepare_threads(const Fabric& fabric, const Vec3& wo, FabricView& view) {
+void prepare_threads(const Fabric& fabric, const Vec3& wo, FabricView& view, const PointValues* point) {
   view.fabric = &fabric;
-  prepare_view<float>(fabric.threads, wo.x, wo.y, wo.z, view.threads);
+  view.A = point ? point->A : fabric.A;
+  view.own_threads = &fabric.threads;
+  if (point && fabric.varying) {
+    if (view.rewritten_from != fabric.varying) {
+      view.rewritten = fabric.varying->threads;
+      view.rewritten_from = fabric.varying;
+    }
+    rewrite_threads(*fabric.varying, *point, view.rewritten);
+    view.own_threads = &view.rewritten;
+  }
+  prepare_view<float>(*view.own_threads, wo.x, wo.y, wo.z, view.threads);
 }
 
 void prepare_sampler(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, SamplerView& view) {
@@ -122,33 +138,36 @@ void prepare_sampler(const Fabric& fabric, const Vec3& wo, FabricSampler sampler
   if (sampler == FabricSampler::talk) prepare_talk(fabric.talk, wo, view.talk);
 }
 
-void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view) {
-  prepare_threads(fabric, wo, view);
+void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, FabricView& view,
+                  const PointValues* point) {
+  prepare_threads(fabric, wo, view, point);
   prepare_sampler(fabric, wo, sampler, view.sampler);
 }
 
 ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi) {
-  return scatter<float>(view.fabric->threads, view.threads, wi.x, wi.y, wi.z);
-}
-
-Color combine_parts(const Fabric& fabric, const ThreadSums<float>& s) {
-  return Color(s.surface[0] + s.surface[1]) + fabric.A[0] * s.volume[0] + fabric.A[1] * s.volume[1];
+  return scatter<float>(*view.own_threads, view.threads, wi.x, wi.y, wi.z);
 }
 
 Color evaluate(const FabricView& view, const Vec3& wi) {
-  return combine_parts(*view.fabric, evaluate_parts(view, wi));
+  const ThreadSums<float> s = evaluate_parts(view, wi);
+  return Color(s.surface[0] + s.surface[1]) + view.A[0] * s.volume[0] + view.A[1] * s.volume[1];
 }
 
 float pdf(const SamplerView& view, const Vec3& wi) {
   switch (view.sampler) {
-    case FabricSampler::uniform: return wi.z > 0 ? 1 / (2 * pi) : 0;
-    case FabricSampler::talk: return talk_pdf(view.fabric->talk, view.talk, wi);
-    case FabricSampler::table: return table_pdf(view.table, wi);
+    case FabricSampler::uniform:
+      return wi.z > 0 ? 1 / (2 * pi) : 0;
+    case FabricSampler::talk:
+      return talk_pdf(view.fabric->talk, view.talk, wi);
+    case FabricSampler::table:
+      return table_pdf(view.table, wi);
   }
   return 0;
 }
 
-BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi) { return {evaluate(view, wi), pdf(view.sampler, wi)}; }
+BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi) {
+  return {evaluate(view, wi), pdf(view.sampler, wi)};
+}
 
 std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u) {
   switch (view.sampler) {
@@ -161,7 +180,8 @@ std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u) {
       const Vec3 wi = sample_talk(view.fabric->talk, view.talk, u.thread, u.direction);
       return wi.z > 0 ? std::optional<Vec3>(wi) : std::nullopt;
     }
-    case FabricSampler::table: return sample_table(view.table, u.choice, u.direction[0], u.direction[1]);
+    case FabricSampler::table:
+      return sample_table(view.table, u.choice, u.direction[0], u.direction[1]);
   }
   return std::nullopt;
 }

@@ -24,7 +24,9 @@ std::vector<fs::path> module_places() {
   return places;
 }
 
-const ImageFileFunctions& functions() {
+}  // namespace
+
+const ImageFileFunctions& image_file_functions() {
   static const ImageFileFunctions* const loaded = [] {
     std::string tried;
     for (const fs::path& place : module_places()) {
@@ -38,18 +40,21 @@ const ImageFileFunctions& functions() {
   return *loaded;
 }
 
-}  // namespace
-
-ImageFileInfo read_image_info(const fs::path& path) { return functions().read_info(path); }
-
-Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
-  return functions().read_pixels(path, limits, info);
+ImageFileInfo read_image_info(const fs::path& path) {
+  return image_file_functions().read_info(path);
 }
 
-Attributes read_attributes(const fs::path& path) { return functions().read_texts(path); }
+Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
+  return image_file_functions().read_pixels(path, limits, info);
+}
 
-void write_display_image(const fs::path& path, const Image& image, const Attributes& attributes, int bits, bool srgb) {
-  functions().write_display(path, image, attributes, bits, srgb);
+Attributes read_attributes(const fs::path& path) {
+  return image_file_functions().read_texts(path);
+}
+
+void write_display_image(const fs::path& path, const Image& image, const Attributes& attributes, int bits,
+                         bool srgb) {
+  image_file_functions().write_display(path, image, attributes, bits, srgb);
 }
 
 }  // namespace sateen

@@ -14,8 +14,7 @@ float transmittance(const Scene& scene, Ray ray, RayCounts& counts) {
   float passed = 1;
   while (const std::optional<Hit> hit = scene.rays->closest_hit(ray)) {
     const SurfacePoint surface = surface_point(*scene.mesh, *hit);
-    const bool back = dot(surface.geometric_normal, ray.direction) > 0;
-    passed *= back && scene.back ? scene.back->gap : scene.front.gap;
+    passed *= gap_along(scene, surface, ray.direction);
     if (passed < 1e-6f) return 0;
     ray.origin = offset_origin(surface, ray.direction);
     ++counts.shadow;
@@ -62,7 +61,7 @@ void add_lobes(const FabricView& view, const Vec3& wi, const Color& light, LobeL
   const ThreadSums<float> parts = evaluate_parts(view, wi);
   for (int family = 0; family < 2; ++family) {
     sum.surface[family] += light * parts.surface[family];
-    sum.volume[family] += light * view.fabric->A[family] * parts.volume[family];
+    sum.volume[family] += light * view.A[size_t(family)] * parts.volume[family];
   }
 }
 
@@ -80,7 +79,7 @@ void direct_light(const Scene& scene, std::span<const ClothPoint> points, const 
     // A blocked direction costs no evaluation, and a point in full shadow not even the view's terms.
     for (size_t j = 0; j < rays[k].chosen().size(); ++j) {
       if (seen[k][j] == 0) continue;
-      if (!prepared) prepare_threads(*points[k].fabric, points[k].wo, scratch.view);
+      if (!prepared) prepare_threads(*points[k].fabric, points[k].wo, scratch.view, points[k].own_values());
       prepared = true;
       add_lobes(scratch.view, rays[k].rays[j].wi, rays[k].rays[j].light * seen[k][j], light[k]);
     }

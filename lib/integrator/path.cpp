@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "film/filter.h"
+#include "scene/footprint.h"
 
 namespace sateen {
 
@@ -32,6 +33,27 @@ SequenceBatch alone(std::uint32_t seed, const SampleId& id, int bounce) {
   return batch;
 }
 
+constexpr float bounce_cone = 0.1f;  // radius of what a bounced ray stands for, over its length
+
+/// A point met by a camera ray, `ray` as it left the camera. `id`: the sample, at its layer -bounce.
+ClothPoint seen_point(const Scene& scene, const Hit& hit, const Ray& ray, std::uint32_t seed, const SampleId& id,
+                      int bounce) {
+  ClothPoint point = cloth_point(scene, hit, ray.direction);
+  if (!scene.has_maps) return point;
+  const Sequence sequence = pixel_sequence(seed, id.x, id.y, id.replicate, bounce);
+  double choice = draw(sequence, Dimension::pattern, id.index);
+  apply_maps(scene, ray.direction, camera_footprint(scene.camera, ray, point.surface), choice, point);
+  return point;
+}
+
+/// A point met by a bounced ray, whose `choice` is drawn for it.
+ClothPoint bounced_point(const Scene& scene, const Hit& hit, const Vec3& direction, double& choice) {
+  ClothPoint point = cloth_point(scene, hit, direction);
+  if (scene.has_maps)
+    apply_maps(scene, direction, round_footprint(point.surface, bounce_cone * hit.t), choice, point);
+  return point;
+}
+
 LobeLight direct_light(const Scene& scene, const ClothPoint& point, const LightSettings& settings,
                        const SequenceBatch& sample, PathScratch& scratch) {
   LobeLight light;
@@ -58,7 +80,7 @@ BounceLight indirect_light(const Scene& scene, const LightSettings& settings, Cl
                            : sampler == FabricSampler::talk ? Dimension::talk
                                                             : Dimension::uniform;
     u.direction = draw2(left, used, id.index);
-    prepare_view(*point.fabric, point.wo, sampler, scratch.vertex);
+    prepare_view(*point.fabric, point.wo, sampler, scratch.vertex, point.own_values());
     const std::optional<Vec3> wi = sample(scratch.vertex.sampler, u);
     if (!wi) break;
     const BsdfValue value = evaluate_with_pdf(scratch.vertex, *wi);
@@ -79,19 +101,20 @@ BounceLight indirect_light(const Scene& scene, const LightSettings& settings, Cl
     ++scratch.counts.bounce;
     std::optional<Hit> hit = scene.rays->closest_hit(ray);
     if (!hit) break;  // the environment was counted at the vertex before
-    point = cloth_point(scene, *hit, direction);
+    double choice = scene.has_maps ? draw(met, Dimension::pattern, id.index) : 0;
+    point = bounced_point(scene, *hit, direction, choice);
     // Each layer of sheer cloth is passed with its gaps' probability.
-    double pass = point.fabric->gap > 0 ? draw(met, Dimension::gap, id.index) : 1;
-    for (int layer = 0; hit && pass < double(point.fabric->gap) && layer < most_layers; ++layer) {
-      pass /= double(point.fabric->gap);
+    double pass = scene.has_gaps ? draw(met, Dimension::gap, id.index) : 1;
+    for (int layer = 0; hit && pass < double(point.gap) && layer < most_layers; ++layer) {
+      pass /= double(point.gap);
       ray.origin = offset_origin(point.surface, direction);
       ++scratch.counts.bounce;
       hit = scene.rays->closest_hit(ray);
-      if (hit) point = cloth_point(scene, *hit, direction);
+      if (hit) point = bounced_point(scene, *hit, direction, choice);
     }
-    if (!hit) break;
+    if (!hit || !(point.gap < 1)) break;
     // What scatters here was chosen with the probability of not passing; F holds the gaps' share already.
-    throughput /= 1 - point.fabric->gap;
+    throughput /= 1 - point.gap;
 
     const LobeLight direct = direct_light(scene, point, settings, met_batch, scratch);
     const Color sent = throughput * direct.total();
@@ -115,19 +138,20 @@ void see_backdrop(const Scene& scene, const Vec3& direction, float passed, Camer
 /// What is seen through the gaps of the first layer of sheer cloth; `follow` is the weight of its indirect light.
 void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, Ray ray, std::uint32_t seed,
                   const SampleId& id, float follow, PathScratch& scratch, CameraSample& out) {
-  float passed = point.fabric->gap;
+  const Ray eye = ray;
+  float passed = point.gap;
   for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
     ray.origin = offset_origin(point.surface, ray.direction);
     ++scratch.counts.camera;
     const std::optional<Hit> hit = scene.rays->closest_hit(ray);
     if (!hit) return see_backdrop(scene, ray.direction, passed, out);
-    point = cloth_point(scene, *hit, ray.direction);
+    point = seen_point(scene, *hit, eye, seed, id, -layer);
     // Another layer gets numbers of its own.
     const LobeLight direct = direct_light(scene, point, settings, alone(seed, id, -layer), scratch);
     if (keep(direct, scratch.counts)) out.through_gaps += direct.total() * passed;
     if (follow > 0)
       out.through_gaps += indirect_light(scene, settings, point, seed, id, scratch).total() * (passed * follow);
-    passed *= point.fabric->gap;
+    passed *= point.gap;
   }
 }
 
@@ -160,7 +184,7 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
       continue;
     }
     const auto n = size_t(met.count++);
-    points[n] = cloth_point(scene, hits[k], rays[k].direction);
+    points[n] = seen_point(scene, hits[k], rays[k], seed, samples[k], 0);
     sample_of[n] = k;
     met.seed[n] = all.seed[k];
     met.index[n] = all.index[k];
@@ -180,7 +204,7 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
     sample.warp = point.frame.x;
     sample.uv = point.surface.uv;
     sample.wo = point.wo;
-    sample.back = scene.back && point.fabric == &*scene.back;
+    sample.back = scene.back && dot(point.facing, point.surface.geometric_normal) < 0;
     sample.alpha = 1;
     if (keep(direct[n], scratch.counts)) sample.direct = direct[n];
     const float follow =
@@ -189,8 +213,7 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
       sample.indirect = indirect_light(scene, settings, point, seed, samples[k], scratch);
       for (Color& light : sample.indirect.bounce) light *= follow;
     }
-    if (point.fabric->gap > 0)
-      look_through(scene, settings, point, rays[k], seed, samples[k], follow, scratch, sample);
+    if (point.gap > 0) look_through(scene, settings, point, rays[k], seed, samples[k], follow, scratch, sample);
   }
 }
 

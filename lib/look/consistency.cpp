@@ -22,6 +22,10 @@ void check_consistency(const Look& look,
       report({name + ".lengths", name + ".offsets_deg"},
              fmt::format("the lengths of {} are all below {:g}, expected one above", name, least_length), {});
   }
+  if (look.pattern_look.empty() && (look.pattern_mask > 0 || look.textures.contains("pattern.mask")))
+    report({"pattern.mask"}, "the pattern has a mask but no look to weave in", "name one: \"look\": \"...\"");
+  // What textures hold is seen when the scene is put together.
+  if (look.textures.contains("warp.coverage") || look.textures.contains("weft.coverage")) return;
   const float sum = look.warp.coverage + look.weft.coverage;
   constexpr float rounding = 1e-4f;
   if (sum > 1 + rounding || sum < least_coverage)

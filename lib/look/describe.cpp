@@ -11,11 +11,12 @@ namespace sateen {
 
 namespace {
 
-struct Family {
-  const char* name;
-  ThreadFamily Look::*member;
-};
-constexpr Family families[] = {{"warp", &Look::warp}, {"weft", &Look::weft}};
+constexpr const char* groups[] = {"pattern", "warp", "weft"};
+
+// Looks without a pattern are written, and hashed, without a word of one.
+bool unused_pattern(const Field& field, const std::string& value) {
+  return field.group == "pattern" && value == field_text(Look(), field);
+}
 
 std::string joined(const std::vector<std::string>& lines, const std::string& indent) {
   std::string text;
@@ -62,10 +63,13 @@ std::string type_schema(const Field& field) {
 }
 
 std::string property(const Field& field) {
-  const std::string initial = field_text(Look(), field);
+  const std::string initial = field_text(Look(), field), type = type_schema(field);
+  const std::string either = fmt::format("\"anyOf\": [{{{}}}, {{\"$ref\": \"#/$defs/{}\"}}]", type,
+                                         field.kind == FieldKind::color ? "color_texture" : "texture");
   return fmt::format("{}: {{\"description\": {}, {}{}}}", json_quote(field.key),
                      json_quote(field.unit.empty() ? field.help : field.help + ", in " + field.unit),
-                     type_schema(field), initial.empty() ? std::string() : fmt::format(", \"default\": {}", initial));
+                     field.mappable ? either : type,
+                     initial.empty() ? std::string() : fmt::format(", \"default\": {}", initial));
 }
 
 }  // namespace
@@ -74,15 +78,16 @@ std::string write_look(const Look& look) {
   std::vector<std::string> top;
   for (const Field& field : fields()) {
     const std::string value = field_text(look, field);
-    if (!field.family && !value.empty() && value != "\"\"")
+    if (field.group.empty() && !value.empty() && value != "\"\"")
       top.push_back(fmt::format("\"{}\": {}", field.key, value));
   }
-  for (const Family& family : families) {
+  for (const std::string group : groups) {
     std::vector<std::string> own;
     for (const Field& field : fields())
-      if (const std::string value = field_text(look, field); field.family == family.member && !value.empty())
+      if (const std::string value = field_text(look, field);
+          field.group == group && !value.empty() && !unused_pattern(field, value))
         own.push_back(fmt::format("\"{}\": {}", field.key, value));
-    top.push_back(fmt::format("\"{}\": {{\n{}  }}", family.name, joined(own, "    ")));
+    if (!own.empty()) top.push_back(fmt::format("\"{}\": {{\n{}  }}", group, joined(own, "    ")));
   }
   return fmt::format("{{\n{}}}\n", joined(top, "  "));
 }
@@ -105,32 +110,58 @@ std::string look_hash(const Look& look) {
   hash.add("look 1\n");
   for (const Field& field : fields()) {
     std::string value = canonical_text(look, field);
-    if (field.kind == FieldKind::look_name) value = std::filesystem::path(look.back).stem().string();
+    if (unused_pattern(field, value)) continue;
+    if (field.kind == FieldKind::look_name)
+      value = std::filesystem::path(look.*std::get<std::string Look::*>(field.member)).stem().string();
     if (field.appearance && !value.empty()) hash.add(field.path).add("=").add(value).add("\n");
   }
   return hash.hex();
 }
+
+namespace {
+std::string texture_schema(bool color) {
+  return fmt::format(
+      "{{\"description\": \"A texture in place of the value: pixel * scale + offset\", \"type\": \"object\", "
+      "\"additionalProperties\": false, \"required\": [\"texture\"{}], \"properties\": {{"
+      "\"texture\": {{\"description\": \"Path from this file's folder; <UDIM> stands for 1001, 1002 ...\", "
+      "\"type\": \"string\", \"minLength\": 1}}, {}"
+      "\"scale\": {{\"type\": \"number\", \"default\": 1}}, \"offset\": {{\"type\": \"number\", \"default\": 0}}, "
+      "\"repeat\": {{\"description\": \"How often over one unit of u and of v\", \"type\": \"array\", "
+      "\"minItems\": 2, \"maxItems\": 2, \"items\": {{\"type\": \"number\", \"minimum\": 0.001, \"maximum\": "
+      "10000}}}}, \"wrap\": {{\"enum\": [\"repeat\", \"clamp\", \"mirror\"]}}}}}}",
+      color ? ", \"space\"" : "",
+      color ? "\"space\": {\"description\": \"Colour space of the pixels\", \"type\": \"string\", \"minLength\": 1}, "
+            : "");
+}
+}  // namespace
 
 std::string look_schema() {
   std::vector<std::string> top{
       "\"$schema\": {\"description\": \"Where this schema is, for editors\", \"type\": \"string\"}",
       "\"inherits\": {\"description\": \"Name or path of the look whose values this one starts from\", "
       "\"type\": \"string\", \"minLength\": 1}"};
-  std::vector<std::string> family;
+  std::vector<std::string> family, pattern;
   for (const Field& field : fields()) {
-    if (!field.family) top.push_back(property(field));
-    if (field.family == &Look::warp) family.push_back(property(field));
+    if (field.group.empty()) top.push_back(property(field));
+    if (field.group == "pattern") pattern.push_back(property(field));
+    if (field.group == "warp") family.push_back(property(field));
   }
-  for (const Family& each : families)
-    top.push_back(fmt::format("\"{}\": {{\"$ref\": \"#/$defs/family\"}}", each.name));
+  for (const std::string group : groups)
+    top.push_back(
+        fmt::format("\"{}\": {{\"$ref\": \"#/$defs/{}\"}}", group, group == "pattern" ? "pattern" : "family"));
   return fmt::format(
       "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"A look: one cloth\",\n"
       "  \"type\": \"object\",\n  \"additionalProperties\": false,\n  \"properties\": {{\n{}  }},\n"
-      "  \"$defs\": {{\n    \"family\": {{\n      \"description\": \"One family of threads\",\n"
+      "  \"$defs\": {{\n    \"texture\": {},\n    \"color_texture\": {},\n"
+      "    \"pattern\": {{\n      \"description\": \"Another look that is woven in\",\n"
+      "      \"type\": \"object\",\n      \"additionalProperties\": false,\n      \"properties\": {{\n{}      }}\n   "
+      " }},\n"
+      "    \"family\": {{\n      \"description\": \"One family of threads\",\n"
       "      \"type\": \"object\",\n      \"additionalProperties\": false,\n"
       "      \"not\": {{\"required\": [\"A\", \"color\"]}},\n      \"properties\": {{\n{}      }}\n    }}\n  "
       "}}\n}}\n",
-      joined(top, "    "), joined(family, "        "));
+      joined(top, "    "), texture_schema(false), texture_schema(true), joined(pattern, "        "),
+      joined(family, "        "));
 }
 
 std::string look_field_help() {
@@ -142,8 +173,8 @@ std::string look_field_help() {
     if (!field.unit.empty()) facts += " " + field.unit;
     if (const std::string initial = field_text(Look(), field); !initial.empty() && initial != "\"\"")
       facts += fmt::format("{}default {}", facts.empty() ? "" : ", ", initial);
-    text += fmt::format("{:<{}}  {}{}\n", field.path, widest, field.help,
-                        facts.empty() ? "" : fmt::format(" ({})", facts));
+    text += fmt::format("{:<{}}  {}{}{}\n", field.path, widest, field.help,
+                        facts.empty() ? "" : fmt::format(" ({})", facts), field.mappable ? ", or a texture" : "");
   }
   return text;
 }

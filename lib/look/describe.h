@@ -18,7 +18,9 @@ struct FieldDifference {
 std::vector<FieldDifference> diff_looks(const Look& a, const Look& b);
 
 /// 16 hexadecimal digits that are equal for looks which are the same cloth: not the name, file, title, description,
-/// source, comments or order of keys. `back` counts by its name alone: add the hash of that look too.
+/// source, comments or order of keys. `back` and the pattern's
+/// look count by their names alone: add the hashes of those looks too. Textures count by their files' contents:
+/// InputError where they cannot be read.
 std::string look_hash(const Look& look);
 
 /// JSON Schema (draft 2020-12) of a look file, for editors that complete and check while typing.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/nearest_name.h"
+#include "look/read_texture.h"
 
 namespace sateen {
 
@@ -180,7 +181,41 @@ struct MemberText {
 
 }  // namespace
 
+namespace {
+
+/// A texture in place of a value: the field itself goes back to its default.
+bool set_texture(Look& look, const Field& field, const JsonValue& value, std::string_view name,
+                 const Report& report) {
+  TextureValue read;
+  if (!read_texture(read, field, value, name, look.file, report)) return false;
+  const auto put = [&](const std::string& group, ThreadFamily* family) {
+    if (family && field.kind == FieldKind::color) {
+      family->color.reset();
+      family->A = ThreadFamily().A;
+      look.textures.erase(group + ".A");
+      look.textures.erase(group + ".color");
+    }
+    look.textures[group.empty() ? field.key : group + "." + field.key] = read;
+  };
+  if (field.is_shorthand()) {
+    put("warp", &look.warp);
+    put("weft", &look.weft);
+    return true;
+  }
+  const Look defaults;
+  visit_member(look, field, [&](auto& member) {
+    visit_member(defaults, field, [&](const auto& initial) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(initial)>, std::decay_t<decltype(member)>>) member = initial;
+    });
+  });
+  put(field.group, field.family ? &(look.*field.family) : nullptr);
+  return true;
+}
+
+}  // namespace
+
 bool set_field(Look& look, const Field& field, const JsonValue& value, std::string_view name, const Report& report) {
+  if (value.kind == Kind::object && value.find("texture")) return set_texture(look, field, value, name, report);
   if (const auto* both = std::get_if<OfBothFamilies>(&field.member)) {
     ColorValue read;
     if (!read_color(read, field, value, name, report)) return false;
@@ -188,6 +223,7 @@ bool set_field(Look& look, const Field& field, const JsonValue& value, std::stri
       family->*(both->member) = read;
       family->A = ThreadFamily().A;
     }
+    for (const char* path : {"warp.A", "warp.color", "weft.A", "weft.color"}) look.textures.erase(path);
     return true;
   }
   bool good = false;
@@ -211,18 +247,27 @@ bool set_field(Look& look, const Field& field, const JsonValue& value, std::stri
       }
     }
   });
+  if (good) look.textures.erase(field.path);
+  if (good && field.family && field.kind == FieldKind::color)
+    for (const char* key : {".A", ".color"}) look.textures.erase(field.group + key);
   return good;
 }
 
 std::string field_text(const Look& look, const Field& field) {
   if (field.is_shorthand()) return {};
-  if (std::holds_alternative<ColorValue ThreadFamily::*>(field.member) && (look.*field.family).color) return {};
+  if (const auto texture = look.textures.find(field.path); texture != look.textures.end())
+    return texture_text(texture->second, look.file);
+  if (std::holds_alternative<ColorValue ThreadFamily::*>(field.member) &&
+      ((look.*field.family).color || look.textures.contains(field.group + ".color")))
+    return {};
   std::string text;
   visit_member(look, field, [&](const auto& member) { text = MemberText()(member); });
   return text;
 }
 
 std::string canonical_text(const Look& look, const Field& field) {
+  if (const auto texture = look.textures.find(field.path); texture != look.textures.end())
+    return texture_identity(texture->second);
   if (field.kind != FieldKind::color) return field_text(look, field);
   Look pinned = look;
   pin_color_spaces(pinned);

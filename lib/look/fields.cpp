@@ -36,6 +36,11 @@ Field ranged(std::string key, Member member, double low, double high, std::strin
   return field;
 }
 
+Field mapped(Field field) {
+  field.mappable = true;
+  return field;
+}
+
 // A new parameter is one line here, plus its use.
 std::vector<Field> look_fields() {
   return {
@@ -44,32 +49,40 @@ std::vector<Field> look_fields() {
       remark("source", &Look::source, true, "Where the numbers come from"),
       words("color_space", &Look::color_space, FieldKind::name,
             "Space of all colours of the file that name none of their own"),
-      ranged("color", OfBothFamilies{&ThreadFamily::color}, 0, 1, "",
-             "Colour of each family for which the same file gives neither color nor A"),
+      mapped(ranged("color", OfBothFamilies{&ThreadFamily::color}, 0, 1, "",
+                    "Colour of each family for which the same file gives neither color nor A")),
       ranged("masking_width_deg", &Look::masking_width_deg, 5, 60, "degrees",
              "Width of the transition between uncorrelated and correlated masking"),
-      ranged("warp_angle_deg", &Look::warp_angle_deg, -180, 180, "degrees",
-             "Turns the warp about the normal, from the direction of u towards that of v"),
+      mapped(ranged("warp_angle_deg", &Look::warp_angle_deg, -180, 180, "degrees",
+                    "Turns the warp about the normal, from the direction of u towards that of v")),
       words("back", &Look::back, FieldKind::look_name,
             "Look of the back of the cloth; empty for the same on both sides"),
+  };
+}
+
+std::vector<Field> pattern_fields() {
+  return {
+      mapped(ranged("mask", &Look::pattern_mask, 0, 1, "",
+                    "Where another look is woven in: 0 this look, 1 the other, between them both in these shares")),
+      words("look", &Look::pattern_look, FieldKind::look_name, "The look that the pattern weaves in"),
   };
 }
 
 std::vector<Field> family_fields() {
   constexpr double most_scale = 100, longest = 1000;  // beyond any use
   return {
-      ranged("eta", &ThreadFamily::eta, 1, 3, "", "Index of refraction of the thread"),
-      ranged("k_d", &ThreadFamily::k_d, 0, 1, "", "Isotropic share of the light scattered inside the thread"),
-      ranged("gamma_s_deg", &ThreadFamily::gamma_s_deg, 0.5, 90, "degrees",
-             "Width of the highlight at the thread's surface, as a standard deviation"),
-      ranged("gamma_v_deg", &ThreadFamily::gamma_v_deg, 0.5, 180, "degrees",
-             "Width of the glow from inside the thread, as a standard deviation"),
-      ranged("coverage", &ThreadFamily::coverage, 0, 1, "",
-             "Share of the cloth's area; what warp and weft leave of 1 are gaps"),
-      ranged("A", &ThreadFamily::A, 0, most_scale, "",
-             "Raw scale of the light scattered inside the thread; not a reflectance"),
-      ranged("color", &ThreadFamily::color, 0, 1, "",
-             "What the cloth would show in white light at normal view if both families had it; gives A"),
+      mapped(ranged("eta", &ThreadFamily::eta, 1, 3, "", "Index of refraction of the thread")),
+      mapped(ranged("k_d", &ThreadFamily::k_d, 0, 1, "", "Isotropic share of the light scattered inside the thread")),
+      mapped(ranged("gamma_s_deg", &ThreadFamily::gamma_s_deg, 0.5, 90, "degrees",
+                    "Width of the highlight at the thread's surface, as a standard deviation")),
+      mapped(ranged("gamma_v_deg", &ThreadFamily::gamma_v_deg, 0.5, 180, "degrees",
+                    "Width of the glow from inside the thread, as a standard deviation")),
+      mapped(ranged("coverage", &ThreadFamily::coverage, 0, 1, "",
+                    "Share of the cloth's area; what warp and weft leave of 1 are gaps")),
+      mapped(ranged("A", &ThreadFamily::A, 0, most_scale, "",
+                    "Raw scale of the light scattered inside the thread; not a reflectance")),
+      mapped(ranged("color", &ThreadFamily::color, 0, 1, "",
+                    "What the cloth would show in white light at normal view if both families had it; gives A")),
       ranged("offsets_deg", &ThreadFamily::offsets_deg, -90, 90, "degrees",
              "Tilts of the thread at the ends of the pieces of its tangent curve"),
       ranged("lengths", &ThreadFamily::lengths, 0, longest, "",
@@ -80,15 +93,17 @@ std::vector<Field> family_fields() {
 std::vector<Field> all_fields() {
   std::vector<Field> all = look_fields();
   for (Field& field : all) field.path = field.key;
-  const auto add_family = [&](const std::string& name, ThreadFamily Look::*family) {
-    for (Field& field : family_fields()) {
+  const auto add_group = [&](const std::string& name, ThreadFamily Look::*family, std::vector<Field> group) {
+    for (Field& field : group) {
       field.path = name + "." + field.key;
+      field.group = name;
       field.family = family;
       all.push_back(std::move(field));
     }
   };
-  add_family("warp", &Look::warp);
-  add_family("weft", &Look::weft);
+  add_group("pattern", nullptr, pattern_fields());
+  add_group("warp", &Look::warp, family_fields());
+  add_group("weft", &Look::weft, family_fields());
   return all;
 }
 

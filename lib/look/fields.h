@@ -34,7 +34,8 @@ struct Field {
   std::string path;  ///< "warp.gamma_s_deg", "masking_width_deg"
   std::string key;   ///< the last part of the path
   FieldKind kind = FieldKind::text;
-  ThreadFamily Look::*family = nullptr;  ///< null at the top level
+  std::string group;                     ///< "warp", "weft", "pattern"; empty at the top level
+  ThreadFamily Look::*family = nullptr;  ///< of the warp's and the weft's
   FieldMember member;
   double low =
       -std::numeric_limits<double>::infinity();  ///< bounds of a number, of each number of a list, of a channel
@@ -43,6 +44,7 @@ struct Field {
   std::string help;        ///< one sentence without its period
   bool appearance = true;  ///< part of the hash and of differences
   bool inherited = true;   ///< false: each file says it for itself
+  bool mappable = false;   ///< a texture may stand in place of the value
 
   bool is_shorthand() const { return std::holds_alternative<OfBothFamilies>(member); }
 };
@@ -50,7 +52,7 @@ struct Field {
 /// Numbers in a list of offsets, at least and at most: a tangent curve is short.
 inline constexpr size_t fewest_offsets = 2, most_offsets = 64;
 
-/// All fields in the order in which they are written: the look's own, the warp's, the weft's.
+/// All fields in the order in which they are written: the look's own, the pattern's, the warp's, the weft's.
 const std::vector<Field>& fields();
 
 /// The field of that path, or nullptr.

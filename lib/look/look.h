@@ -1,8 +1,10 @@
 #pragma once
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "look/texture_value.h"
 #include "math/vector.h"
 
 namespace sateen {
@@ -39,6 +41,14 @@ struct Look {
   float masking_width_deg = 20;  ///< sigma of u in M and P (2013: 15 to 25), 5 to 60
   float warp_angle_deg = 0;      ///< turns the warp about the normal, from dP/du towards dP/dv, -180 to 180
   std::string back;              ///< name or path of another look for the back of the cloth; empty: the same
+
+  /// Another look is woven in where the mask is 1; in between, both in these shares. Its own back and pattern do not
+  /// count.
+  float pattern_mask = 0;
+  std::string pattern_look;
+
+  /// Textures by the path of the field that each stands for ("warp.color"); that field then holds its default.
+  std::map<std::string, TextureValue> textures;
 
   std::string file;  ///< where it was read from; not part of the look's hash
 };

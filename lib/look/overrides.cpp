@@ -62,6 +62,18 @@ JsonValue typed_value(const Field& field, std::string_view typed) {
   }
 }
 
+// Textures are typed from the folder one stands in, but those beside the look are found too.
+JsonValue with_path_from_here(JsonValue value, const std::string& look_file) {
+  for (JsonValue& item : value.items) {
+    if (item.key != "texture" || item.kind != JsonValue::Kind::text || item.text.empty()) continue;
+    std::error_code ignored;
+    const auto beside = std::filesystem::absolute(look_file, ignored).parent_path() / item.text;
+    const auto here = std::filesystem::absolute(item.text, ignored);
+    if (texture_files(beside.string()).empty() && !texture_files(here.string()).empty()) item.text = here.string();
+  }
+  return value;
+}
+
 std::string_view path_of(std::string_view text) {
   return trimmed(text.substr(0, text.find('=')));
 }
@@ -87,16 +99,18 @@ std::string path_help(const std::string& path) {
 
 }  // namespace
 
-std::string key_help(const std::string& key, const std::string& family) {
+std::string key_help(const std::string& key, const std::string& group) {
   std::vector<std::string> here, elsewhere;
   for (const Field& field : fields()) {
-    const bool same_level = family.empty() ? !field.family : field.path == family + "." + field.key;
+    const bool same_level = field.group == group;
     (same_level ? here : elsewhere).push_back(field.key);
     if (same_level && field.key == key + "_deg") return fmt::format("did you mean {}?", field.key);
   }
-  if (family.empty()) here.insert(here.end(), {"inherits", "warp", "weft"});
-  if (!family.empty()) elsewhere.push_back("inherits");
-  const std::string level = family.empty() ? "inside \"warp\" or \"weft\"" : "at the top level";
+  if (group.empty()) here.insert(here.end(), {"inherits", "pattern", "warp", "weft"});
+  if (!group.empty()) elsewhere.push_back("inherits");
+  const std::string level = !group.empty()                   ? "at the top level"
+                            : key == "mask" || key == "look" ? "inside \"pattern\""
+                                                             : "inside \"warp\" or \"weft\"";
   if (std::find(elsewhere.begin(), elsewhere.end(), key) != elsewhere.end())
     return fmt::format("it belongs {}", level);
   if (nearest_name(key, here).empty())
@@ -132,8 +146,10 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
       complain(text, std::move(message), std::move(help));
     };
     const Look before = changed;
-    if (!set_field(changed, *field, typed_value(*field, std::string_view(text).substr(equals + 1)), path, report))
-      continue;
+    const JsonValue typed = typed_value(*field, std::string_view(text).substr(equals + 1));
+    if (!set_field(changed, *field, with_path_from_here(typed, changed.file), path, report)) continue;
+    for (auto& [name, texture] : changed.textures)
+      if (texture.origin.empty()) texture.origin = "--set " + path;
     if (path == "color_space" && changed.color_space != before.color_space) {
       // As in a file that inherits: what was there keeps its meaning, what follows is in the new space.
       const std::string space = changed.color_space;
@@ -141,13 +157,14 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
       pin_color_spaces(changed);
       changed.color_space = space;
     }
-    if (field->kind == FieldKind::look_name && !changed.back.empty()) {
+    if (field->kind == FieldKind::look_name) {
+      std::string& named = changed.*std::get<std::string Look::*>(field->member);
       try {
-        const auto found = find_look_beside(changed.back, changed.file);
-        if (changed.back.find('/') != std::string::npos)
-          changed.back = std::filesystem::absolute(found).lexically_normal().string();
+        const auto found = named.empty() ? std::filesystem::path() : find_look_beside(named, changed.file);
+        if (named.find('/') != std::string::npos)
+          named = std::filesystem::absolute(found).lexically_normal().string();
       } catch (const InputError& error) {
-        complain(text, fmt::format("there is no look {}", shown_name(changed.back)), error.diagnostics.front().help);
+        complain(text, fmt::format("there is no look {}", shown_name(named)), error.diagnostics.front().help);
       }
     }
     if (field->is_shorthand()) {

@@ -121,9 +121,9 @@ class LayerReader {
 
   void read_top_level(const JsonValue& item) {
     if (item.key == "$schema" || item.key == "inherits") return;
-    if (item.key == "warp" || item.key == "weft") return read_family(item);
+    if (item.key == "warp" || item.key == "weft" || item.key == "pattern") return read_group(item);
     const Field* field = find_field(item.key);
-    if (!field || field->family)
+    if (!field || !field->group.empty())
       return complain(item.key_place, "unknown key " + shown_name(item.key), key_help(item.key, {}));
     if (field->is_shorthand())
       shorthands_.push_back({field, &item});
@@ -131,21 +131,21 @@ class LayerReader {
       read_field(*field, item);
   }
 
-  void read_family(const JsonValue& family) {
-    if (family.kind != JsonValue::Kind::object)
-      return complain(family.place, fmt::format("{} holds no fields, expected an object {{ ... }}", family.key), {});
-    for (const JsonValue& item : family.items) {
+  void read_group(const JsonValue& group) {
+    if (group.kind != JsonValue::Kind::object)
+      return complain(group.place, fmt::format("{} holds no fields, expected an object {{ ... }}", group.key), {});
+    for (const JsonValue& item : group.items) {
       if (complaints_.size() == most_complaints) break;
-      const Field* field = find_field(family.key + "." + item.key);
+      const Field* field = find_field(group.key + "." + item.key);
       if (field)
         read_field(*field, item);
       else
-        complain(item.key_place, "unknown key " + shown_name(item.key), key_help(item.key, family.key));
+        complain(item.key_place, "unknown key " + shown_name(item.key), key_help(item.key, group.key));
     }
-    const JsonValue *color = family.find("color"), *scale = family.find("A");
+    const JsonValue *color = group.find("color"), *scale = group.find("A");
     if (color && scale)
       complain(std::max(color, scale)->key_place,
-               fmt::format("{} gives both color and A, expected one of them", family.key),
+               fmt::format("{} gives both color and A, expected one of them", group.key),
                "A is solved from color; drop A, or drop color to keep the raw scale");
   }
 
@@ -156,6 +156,8 @@ class LayerReader {
     given_.push_back({field.path, item.place});
     if (!set_field(layer_.look, field, item, field.key, report)) return;
     if (field.kind == FieldKind::look_name) settle_look_name(field, item);
+    for (auto& [path, texture] : layer_.look.textures)
+      if (texture.origin.empty()) texture.origin = fmt::format("{}:{}", document_.file, item.place.line);
     set_origin(field.path, item.place);
   }
 
@@ -187,9 +189,14 @@ class LayerReader {
       read_field(*field, *item);
       for (const auto& [name, family] : {std::pair("warp", &Look::warp), std::pair("weft", &Look::weft)}) {
         const JsonValue* own = document_.root.find(name);
-        if (own && (own->find("color") || own->find("A")))
+        if (own && (own->find("color") || own->find("A"))) {
           layer_.look.*family = before.*family;
-        else
+          for (const char* key : {".A", ".color"}) {
+            layer_.look.textures.erase(name + std::string(key));
+            if (const auto kept = before.textures.find(name + std::string(key)); kept != before.textures.end())
+              layer_.look.textures.insert(*kept);
+          }
+        } else
           set_origin(fmt::format("{}.color", name), item->place);
       }
     }
@@ -253,6 +260,15 @@ Look parse_look(const std::string& text, const std::string& file, const std::vec
 
 Look read_back(const Look& look, const std::vector<fs::path>& extra_folders) {
   return read_look(find_look_beside(look.back, look.file, extra_folders).string(), {}, extra_folders);
+}
+
+Look read_pattern(const Look& look, const std::vector<fs::path>& extra_folders) {
+  Look woven = read_look(find_look_beside(look.pattern_look, look.file, extra_folders).string(), {}, extra_folders);
+  if (!woven.pattern_look.empty())
+    throw InputError(
+        fmt::format("{}: its pattern weaves in {}, which has a pattern of its own", look.file, woven.name),
+        "name a look without one");
+  return woven;
 }
 
 }  // namespace sateen

@@ -43,6 +43,9 @@ Look parse_look(const std::string& text, const std::string& file,
 /// The look that `look.back` names; `look` itself, when that is empty, must not be passed.
 Look read_back(const Look& look, const std::vector<std::filesystem::path>& extra_folders = {});
 
+/// The look that `look.pattern_look` names, which must not be empty. InputError where that one has a pattern too.
+Look read_pattern(const Look& look, const std::vector<std::filesystem::path>& extra_folders = {});
+
 /// Applies "path=value" texts as from the command line, such as "warp.gamma_s_deg=4" or "color=[0.1, 0.2, 0.6]"
 /// (brackets and quotes may be left out). Ranges are checked one by one, consistency after the last. On InputError
 /// the look is unchanged.

@@ -15,6 +15,7 @@
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
+#include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
 
 namespace sateen {
@@ -106,11 +107,15 @@ std::string hash_environment(const Environment& environment) {
 }  // namespace
 
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report) {
-  Look look = read_look(settings.look, settings.look_overrides);
-  look.warp_angle_deg += settings.warp_angle_deg;
+  const Look look = read_look(settings.look, settings.look_overrides);
   report.look = look;
-  report.look_hash = look_hash(look);
-  if (!look.back.empty()) report.look_hash = Hash().add(report.look_hash).add(look_hash(read_back(look))).hex();
+  if (!look.textures.contains("warp_angle_deg")) report.look.warp_angle_deg += settings.warp_angle_deg;
+  report.look_hash = look_hash(report.look);
+  const auto add_hash = [&](const Look& other) {
+    report.look_hash = Hash().add(report.look_hash).add(look_hash(other)).hex();
+  };
+  if (!look.back.empty()) add_hash(read_back(look));
+  if (!look.pattern_look.empty()) add_hash(read_pattern(look));
 
   // Each part reports into fields of its own, the mesh alone into `warnings`.
   std::future<Cloth> cloth = std::async(std::launch::async, [&] { return build_cloth(settings, report); });
@@ -126,13 +131,17 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   });
   Scene scene;
   const double start = now();
-  const ToWorking to_working = [&](const Color& c, const std::string& space) { return colors.to_working(c, space); };
   FabricParts parts;
   parts.threads = settings.threads;
   std::exception_ptr failure;
+  std::vector<std::string> warnings;
   try {
-    scene.front = compile_fabric(look, to_working, parts);
-    if (!look.back.empty()) scene.back = compile_fabric(read_back(look), to_working, parts);
+    CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg);
+    std::optional<CompiledSide> back;
+    if (!look.back.empty()) back = compile_side(read_back(look), colors, parts);
+    warnings = front.warnings;
+    if (back) warnings.insert(warnings.end(), back->warnings.begin(), back->warnings.end());
+    set_sides(scene, std::move(front), std::move(back));
   } catch (...) {
     failure = std::current_exception();  // the other two still hold references to this frame
   }
@@ -148,7 +157,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
-  scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
+  report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   report.environment_hash = hash_environment(scene.environment);
   report.metered_ev = metered_exposure_ev(scene.environment);
   return scene;

@@ -21,7 +21,8 @@ enum class Dimension : std::uint32_t {
   roulette,     ///< whether a path goes on, 1D
   bounces,      ///< whether a sample follows light that meets cloth again, 1D
   lens,         ///< reserved for depth of field, 2D
-  time          ///< reserved for motion blur, 1D
+  time,         ///< reserved for motion blur, 1D
+  pattern       ///< which look of a pattern is met, 1D
 };
 
 /// The sequence of one pixel in one independent replicate of the picture.

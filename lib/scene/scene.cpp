@@ -6,6 +6,19 @@ namespace {
 // Where the interpolated normal turns away from the viewer although the triangle does not (silhouettes), it is bent
 // back until wo grazes it at this cosine: a third of a degree, less than a texel of the direction table.
 constexpr float smallest_cosine = 5e-3f;
+
+// The warp lies in the surface along dP/du, turned by the look's angle towards dP/dv.
+Frame cloth_frame(const SurfacePoint& surface, const Vec3& normal, float angle) {
+  const Frame straight = frame_from(normal, surface.dpdu);
+  const Vec3 y = dot(straight.y, surface.dpdv) < 0 ? -straight.y : straight.y;
+  if (angle == 0) return {straight.x, y, normal};
+  const float c = std::cos(angle), s = std::sin(angle);
+  return {straight.x * c + y * s, y * c - straight.x * s, normal};
+}
+
+const SideMaps* side_maps(const Scene& scene, bool back) {
+  return back && scene.back ? scene.back_maps.get() : scene.front_maps.get();
+}
 }  // namespace
 
 ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction) {
@@ -21,19 +34,47 @@ ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction
   if (const float cosine = dot(normal, to_viewer); cosine < smallest_cosine)
     normal = normalize(normal + to_viewer * (smallest_cosine - cosine));
 
-  // The warp lies in the surface along dP/du, turned by the look's angle towards dP/dv.
-  const Frame straight = frame_from(normal, point.surface.dpdu);
-  const Vec3 y = dot(straight.y, point.surface.dpdv) < 0 ? -straight.y : straight.y;
-  const float angle = point.fabric->warp_angle;
-  if (angle == 0) {
-    point.frame = {straight.x, y, normal};
-  } else {
-    const float c = std::cos(angle), s = std::sin(angle);
-    point.frame = {straight.x * c + y * s, y * c - straight.x * s, normal};
-  }
+  point.frame = cloth_frame(point.surface, normal, point.fabric->warp_angle);
   point.wo = point.frame.to_local(to_viewer);
   point.wo.z = std::max(point.wo.z, smallest_cosine / 2);
+  point.gap = point.fabric->gap;
+  point.mapped = false;
   return point;
+}
+
+void apply_maps(const Scene& scene, const Vec3& direction, const Footprint& footprint, double& choice,
+                ClothPoint& point) {
+  const SideMaps* side = side_maps(scene, dot(point.surface.geometric_normal, point.facing) < 0);
+  if (!side) return;
+  const Vec2& uv = point.surface.uv;
+  const FabricMaps* maps = &side->own;
+  const float angle_before = point.fabric->warp_angle;
+  if (side->pattern) {
+    const double share = double(pattern_share(*side->pattern, uv, footprint));
+    if (choice < share) {
+      choice /= share;
+      point.fabric = &side->pattern->fabric;
+      maps = &side->pattern->maps;
+    } else {
+      choice = (choice - share) / (1 - share);
+    }
+  }
+  if (const float angle = warp_angle_at(*maps, *point.fabric, uv, footprint); angle != angle_before) {
+    point.frame = cloth_frame(point.surface, point.frame.z, angle);
+    point.wo = point.frame.to_local(-normalize(direction));
+    point.wo.z = std::max(point.wo.z, smallest_cosine / 2);
+  }
+  point.mapped = maps->any_values();
+  if (point.mapped) point.values = values_at(*maps, uv, footprint);
+  // Gaps that are switched off still darken: they are part of the threads' own light.
+  point.gap = !scene.has_gaps ? 0 : point.mapped ? point.values.gap : point.fabric->gap;
+}
+
+float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& direction) {
+  const bool back = dot(surface.geometric_normal, direction) > 0;
+  const Fabric& fabric = back && scene.back ? *scene.back : scene.front;
+  const SideMaps* side = side_maps(scene, back);
+  return side ? gap_at(*side, fabric, surface.uv, {}) : fabric.gap;
 }
 
 }  // namespace sateen

@@ -5,6 +5,7 @@
 #include "fabric/fabric.h"
 #include "mesh/mesh.h"
 #include "scene/camera.h"
+#include "scene/cloth_maps.h"
 #include "scene/environment.h"
 #include "scene/ray_tracer.h"
 #include "scene/surface.h"
@@ -20,26 +21,43 @@ enum class Backdrop {
 
 /// Everything that is rendered, compiled; const while rendering. A copy shares mesh and ray tracer.
 struct Scene {
-  std::shared_ptr<const Mesh> mesh;      ///< a stable address: the ray tracer shares its arrays
+  std::shared_ptr<const Mesh> mesh;  ///< a stable address: the ray tracer shares its arrays
   std::shared_ptr<const RayTracer> rays;
   Fabric front;
-  std::optional<Fabric> back;            ///< of the cloth; empty: the same as the front
+  std::optional<Fabric> back;  ///< of the cloth; empty: the same as the front
   Environment environment;
   Camera camera;
   Backdrop backdrop = Backdrop::none;
-  Color backdrop_color{0, 0, 0};         ///< working space
-  bool has_gaps = false;                 ///< some look lets light straight through
-  bool self_shadowing = true;            ///< false: no part of the cloth keeps light from another
+  Color backdrop_color{0, 0, 0};  ///< working space
+  bool has_gaps = false;          ///< some look lets light straight through
+  bool self_shadowing = true;     ///< false: no part of the cloth keeps light from another
+  std::shared_ptr<const SideMaps> front_maps,
+      back_maps;          ///< null where nothing varies; the back's own, if it has one
+  bool has_maps = false;  ///< some side has maps
 };
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
 struct ClothPoint {
   SurfacePoint surface;
-  Frame frame;            ///< may be left-handed: F does not care, and mirrored UVs stay mirrored
-  Vec3 facing;            ///< geometric normal on the viewer's side
-  const Fabric* fabric;   ///< of the side that is seen
-  Vec3 wo;                ///< towards the viewer, cloth frame; wo.z > 0
+  Frame frame;           ///< may be left-handed: F does not care, and mirrored UVs stay mirrored
+  Vec3 facing;           ///< geometric normal on the viewer's side
+  const Fabric* fabric;  ///< of the side that is seen
+  Vec3 wo;               ///< towards the viewer, cloth frame; wo.z > 0
+  float gap;             ///< share of the area here that light and sight pass
+  PointValues values;    ///< what textures say here
+  bool mapped;           ///< whether they say anything; false: `values` hold nothing
+
+  const PointValues* own_values() const { return mapped ? &values : nullptr; }
 };
 ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction);
+
+/// What textures and the pattern make of a point: only for scenes that have maps. `choice` in [0, 1) says where the
+/// mask is between 0 and 1 which of the two looks is met: both in their shares, over many samples. It is left as good
+/// as new for another layer.
+void apply_maps(const Scene& scene, const Vec3& direction, const Footprint& footprint, double& choice,
+                ClothPoint& point);
+
+/// Share of light that the gaps at a hit let pass, whichever side `direction` comes from.
+float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& direction);
 
 }  // namespace sateen

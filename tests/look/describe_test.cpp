@@ -96,7 +96,7 @@ TEST(LookHash, SeesEveryFieldThatChangesTheCloth) {
     EXPECT_EQ(diff_looks(look, changed).empty(), !field.appearance) << field.path;
     ++seen;
   }
-  EXPECT_EQ(seen, 25);
+  EXPECT_EQ(seen, 27);
 }
 
 TEST(LookHash, TellsAllShippedLooksApart) {
@@ -126,21 +126,24 @@ TEST(LookSchema, HoldsEveryFieldWithItsRangeAndDefault) {
   EXPECT_EQ(schema.root.find("$schema")->text, "https://json-schema.org/draft/2020-12/schema");
   const JsonValue* top = schema.root.find("properties");
   const JsonValue* family = schema.root.find("$defs")->find("family")->find("properties");
+  const JsonValue* pattern = schema.root.find("$defs")->find("pattern")->find("properties");
   size_t found = 0;
   for (const Field& field : fields()) {
-    const JsonValue* property = (field.family ? family : top)->find(field.key);
+    const JsonValue* property = (field.family ? family : field.group.empty() ? top : pattern)->find(field.key);
     ASSERT_TRUE(property) << field.path;
     EXPECT_NE(property->find("description")->text.find(field.help), std::string::npos);
     const std::string initial = field_text(Look(), field);
     EXPECT_EQ(property->find("default") != nullptr, !initial.empty()) << field.path;
     if (field.kind == FieldKind::number) {
-      EXPECT_EQ(property->find("minimum")->number, field.low);
-      EXPECT_EQ(property->find("maximum")->number, field.high);
+      const JsonValue* number = field.mappable ? &property->find("anyOf")->items[0] : property;
+      EXPECT_EQ(number->find("minimum")->number, field.low);
+      EXPECT_EQ(number->find("maximum")->number, field.high);
       EXPECT_EQ(property->find("default")->text, initial);
     }
     found += field.family != &Look::weft;
   }
-  EXPECT_EQ(top->items.size() + family->items.size(), found + 4);  // $schema, inherits, warp, weft
+  // $schema, inherits, pattern, warp, weft
+  EXPECT_EQ(top->items.size() + family->items.size() + pattern->items.size(), found + 5);
   EXPECT_FALSE(schema.root.find("additionalProperties")->boolean);
 }
 

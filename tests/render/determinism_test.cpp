@@ -54,6 +54,23 @@ TEST(SameBits, ForAnyNumberOfThreads) {
   EXPECT_EQ(rendered(settings, true), one_with_layers);
 }
 
+// Textures are read, tile by tile, by whichever thread comes first.
+TEST(SameBits, OfTexturesAndPatternsForAnyNumberOfThreads) {
+  for (const char* look : {"printed_silk", "silk_damask"}) {
+    std::string one;
+    for (const int threads : {1, 2, 3, 8}) {
+      const Scene scene = scene_of(scene_settings(look, width, height));  // and a new texture each time
+      ASSERT_TRUE(scene.has_maps);
+      RenderSettings settings = quick();
+      settings.threads = threads;
+      Film film(width, height, true);
+      EXPECT_EQ(render(scene, settings, film).rays.non_finite, 0);
+      if (one.empty()) one = film_hash(film);
+      EXPECT_EQ(film_hash(film), one) << look << ", " << threads << " threads";
+    }
+  }
+}
+
 // A ray tracer that is alive bounds the threads of render() to the processors: here the callers are eight.
 TEST(SameBits, ForEightCallersAtOnce) {
   Film whole(width, height, false);

@@ -219,8 +219,7 @@ void write_codes(const fs::path& path, const OIIO::ImageSpec& spec, const std::v
       [&](const fs::path& temporary) { verify_display(temporary, spec, codes, type, lossless); });
 }
 
-void write_display(const fs::path& path, const Image& image, const Attributes& attributes, int bits,
-                         bool srgb) {
+void write_display(const fs::path& path, const Image& image, const Attributes& attributes, int bits, bool srgb) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
@@ -268,7 +267,8 @@ void write_display(const fs::path& path, const Image& image, const Attributes& a
 }  // namespace sateen
 
 extern "C" const sateen::ImageFileFunctions* sateen_image_file_functions() {
-  static const sateen::ImageFileFunctions functions{sateen::read_info, sateen::read_pixels, sateen::read_texts,
-                                                    sateen::write_display};
+  static const sateen::ImageFileFunctions functions{
+      sateen::read_info,          sateen::read_pixels,   sateen::read_texts,        sateen::write_display,
+      sateen::oiio::make_texture, sateen::oiio::look_up, sateen::oiio::free_texture};
   return &functions;
 }

@@ -1,0 +1,46 @@
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "fabric/fabric.h"
+#include "scene/uv_texture.h"
+
+namespace sateen {
+
+/// The textures of one fabric, by warp and weft; null where the value is the same everywhere.
+struct FabricMaps {
+  using Map = std::shared_ptr<const UvTexture>;
+  std::array<Map, 2> A;                                     ///< solved already where the look gives a colour
+  std::array<Map, 2> coverage, k_d, eta, gamma_s, gamma_v;  ///< radians
+  Map warp_angle;        ///< cosine and sine, so that 179 and -179 degrees filter to 180
+  PointValues constant;  ///< what no texture says
+
+  bool any() const { return warp_angle || any_values(); }
+  bool any_values() const;   ///< some of PointValues
+  bool any_numbers() const;  ///< some of FamilyValues
+};
+
+/// The textures of one side of the cloth, and the look that its pattern weaves in.
+struct SideMaps {
+  FabricMaps own;
+  struct Pattern {
+    Fabric fabric;
+    FabricMaps maps;
+    FabricMaps::Map mask;  ///< null: `share` everywhere
+    float share = 0;       ///< 0 to 1, of the pattern's look
+  };
+  std::optional<Pattern> pattern;
+};
+
+PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& footprint);
+
+/// Angle by which the warp is turned there [radians].
+float warp_angle_at(const FabricMaps& maps, const Fabric& fabric, const Vec2& uv, const Footprint& footprint);
+
+/// Share of the pattern's look there, 0 to 1.
+float pattern_share(const SideMaps::Pattern& pattern, const Vec2& uv, const Footprint& footprint);
+
+/// Share of the area without threads there: of the look and of its pattern's by their shares.
+float gap_at(const SideMaps& side, const Fabric& fabric, const Vec2& uv, const Footprint& footprint);
+
+}  // namespace sateen
