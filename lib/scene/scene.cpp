@@ -36,4 +36,10 @@ ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction
   return point;
 }
 
+void turn_point(ClothPoint& point, const YTurn& object) {
+  point.object = object;
+  point.facing = turned(point.facing, object);
+  for (Vec3* axis : {&point.frame.x, &point.frame.y, &point.frame.z}) *axis = turned(*axis, object);
+}
+
 }  // namespace sateen
