@@ -148,6 +148,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
+  set_stage(scene, settings.stage, settings.threads);
   scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
   report.environment_hash = hash_environment(scene.environment);
   report.metered_ev = metered_exposure_ev(scene.environment);
