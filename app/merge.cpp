@@ -61,16 +61,20 @@ int run_merge(const std::vector<std::string>& words) {
   PictureContent content{
       &sum.film,   job.render.crop, sum.film.layers.empty() ? std::vector<std::string>() : job.layers,
       job.display, job.exposure_ev, picture_attributes(job, report, result)};
+  const std::optional<References> references = references_of(p, job, scene, colors);
+  if (references) content.overlay = &references->overlay;
   std::vector<WrittenPicture> written;
   for (const std::string& output : outputs) written.push_back(write_picture(output, content, colors));
   if (!checkpoint.empty()) write_checkpoint(checkpoint, sum);
   for (const WrittenPicture& file : written) print_written(job, file);
   print_result_line(job, result);
+  if (references) print_references(*references);
   if (voice.json) {
     JsonWriter w;
     w.open_object();
     write_job(w, p, job, report);
     write_result(w, result, written);
+    if (references) write_references(w, *references);
     print_result(w.member("exit_code", int(done)).close().text());
   }
   return done;

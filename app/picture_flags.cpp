@@ -13,17 +13,6 @@
 namespace sateen::app {
 
 namespace {
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  size_t at = 0;
-  for (;;) {
-    const size_t end = text.find(separator, at);
-    parts.push_back(text.substr(at, end - at));
-    if (end == std::string::npos) return parts;
-    at = end + 1;
-  }
-}
-
 void add_scene(Command& c, PictureFlags& f) {
   SceneSettings& s = f.scene;
   c.group("Scene");
@@ -45,30 +34,12 @@ void add_scene(Command& c, PictureFlags& f) {
   c.number("--env-exposure", "EV", s.environment_ev, -100, 100, "brightens the light by stops");
   c.text("--env-space", "NAME", s.environment_space, "colour space of the map (default: as the file says)");
   c.custom(
-      "--backdrop", "none|environment|COLOUR", 1, 1,
-      [&f](const auto& w) {
-        const std::string& text = w.back();
-        f.scene.backdrop = Backdrop::none;
-        f.display.ground.reset();
-        if (text == "none") return;
-        if (text == "environment") {
-          f.scene.backdrop = Backdrop::environment;
-        } else if (text[0] == '#') {
-          f.display.ground = read_hex_color("--backdrop", text);
-        } else if (const auto parts = split(text, ','); parts.size() == 3) {
-          f.scene.backdrop = Backdrop::plain;
-          for (int i = 0; i < 3; ++i)
-            f.scene.backdrop_color[i] = float(read_number("--backdrop", parts[size_t(i)], 0, 1e6));
-        } else {
-          const std::string near = nearest_name(text, {"none", "environment"});
-          throw InputError(
-              fmt::format("--backdrop is {}, expected none, environment, #rrggbb or r,g,b", shown_name(text)),
-              near.empty() ? "#000000 is black, #ffffff white" : "did you mean " + near + "?");
-        }
-      },
+      "--backdrop", "none|environment|blurred[:DEG]|COLOUR", 1, 1,
+      [&f](const auto& w) { read_backdrop(w.back(), f.scene, f.display.ground); },
       "behind the cloth. none: grey paper in display pictures, alpha in an EXR. #rrggbb: that colour on the display, "
       "alpha "
-      "in an EXR. r,g,b: light of that colour, working space");
+      "in an EXR. blurred: the light through a soft kernel of that width (20 degrees). r,g,b: light of that colour, "
+      "working space");
 }
 
 void add_camera(Command& c, PictureFlags& f) {
@@ -124,7 +95,7 @@ void add_quality(Command& c, PictureFlags& f) {
   c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
             fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));
   c.integer("--bounces", "N", f.render.light.bounces, 0, 64,
-            "how often light may meet cloth again (default: as often as the error asked for calls for)");
+            "how often light may meet cloth or ground again (default: as often as the error asked for calls for)");
   std::string names;
   for (const EffectInfo& info : effect_list())
     if (info.switchable) names += (names.empty() ? "" : ", ") + info.name;
@@ -202,6 +173,7 @@ void settle_quality(const std::string& name, RenderSettings& render) {
 void add_picture_flags(Command& command, PictureFlags& flags) {
   add_scene(command, flags);
   add_camera(command, flags);
+  add_stage_flags(command, flags.stage);
   add_quality(command, flags);
   add_output(command, flags);
 }
@@ -209,10 +181,14 @@ void add_picture_flags(Command& command, PictureFlags& flags) {
 void settle_picture_flags(const Command& command, PictureFlags& f, int default_spp) {
   voice.verbosity = f.quiet ? Verbosity::quiet : f.verbose ? Verbosity::detailed : Verbosity::normal;
   StopRules& stop = f.render.stop;
+  settle_stage_flags(command, f.stage, f.scene.stage);
   settle_quality(f.quality, f.render);
   const bool no_rule = stop.spp == 0 && stop.error == 0 && stop.seconds == 0;
   if (no_rule) stop.spp = default_spp;
-  f.render.adaptive = command.given("--adaptive") ? f.adaptive : no_rule || stop.error > 0 || stop.seconds > 0;
+  // The error does not look at alpha, where alone a catcher's shadow is.
+  const bool shadow_in_alpha = f.stage.ground == "catcher" && f.scene.backdrop == Backdrop::none;
+  f.render.adaptive =
+      command.given("--adaptive") ? f.adaptive : !shadow_in_alpha && (no_rule || stop.error > 0 || stop.seconds > 0);
   f.render.seed = std::uint32_t(f.seed);
   f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
@@ -274,6 +250,17 @@ Color read_hex_color(const std::string& what, const std::string& text) {
     throw InputError(
         fmt::format("{} is {}, expected # and six hexadecimal digits, such as #c0b8a8", what, shown_name(text)));
   return {float(value >> 16) / 255.0f, float(value >> 8 & 255u) / 255.0f, float(value & 255u) / 255.0f};
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  size_t at = 0;
+  for (;;) {
+    const size_t end = text.find(separator, at);
+    parts.push_back(text.substr(at, end - at));
+    if (end == std::string::npos) return parts;
+    at = end + 1;
+  }
 }
 
 std::string shell_line(const std::vector<std::string>& words) {

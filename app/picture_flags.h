@@ -6,6 +6,7 @@
 #include "command.h"
 #include "render/metadata.h"
 #include "render/progress.h"
+#include "stage_flags.h"
 
 namespace sateen::app {
 
@@ -14,6 +15,7 @@ struct PictureFlags {
   SceneSettings scene;
   RenderSettings render;
   DisplaySettings display;
+  StageFlags stage;
   std::optional<float> exposure_ev;  ///< empty: metered
   std::vector<std::string> outputs;
   std::string ocio, working, stats, quality;
@@ -43,6 +45,9 @@ double read_duration(const std::string& what, const std::string& text);
 
 /// "#rrggbb" or "#rgb" as code values in [0, 1].
 Color read_hex_color(const std::string& what, const std::string& text);
+
+/// The parts of a text between separators; one where there is none.
+std::vector<std::string> split(const std::string& text, char separator);
 
 /// The words of a command line, quoted for a shell where needed.
 std::string shell_line(const std::vector<std::string>& words);

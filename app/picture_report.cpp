@@ -152,6 +152,7 @@ PictureJob make_job(const PictureFlags& flags, const SceneReport& report, Scene&
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;
+  job.references = flags.stage.references;
   job.effects = effects_text(scene, job.render.light);
   job.color_config = colors.description();
   job.working_space = colors.working_space();
@@ -185,6 +186,43 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
   print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",
                            report.look_seconds, report.mesh_seconds, report.environment_seconds,
                            report.tracer_seconds, size_text(report.tracer_bytes)));
+}
+
+std::optional<References> references_of(const PictureFlags& flags, const PictureJob& job, const Scene& scene,
+                                        const ColorManager& colors) {
+  if (!flags.stage.references) return std::nullopt;
+  return make_references(scene.environment, scene.camera, colors, job.display, job.exposure_ev, job.render.threads);
+}
+
+void print_references(const References& r) {
+  const auto text = [](const Color& c) { return fmt::format("{:.3g} {:.3g} {:.3g}", c.x, c.y, c.z); };
+  const auto code = [](const Color& c) {
+    return fmt::format("{:.0f} {:.0f} {:.0f}", 255 * c.x, 255 * c.y, 255 * c.z);
+  };
+  print_note(fmt::format("grey ball of {:.0f} %: mean {}, brightest {}; on the display {}",
+                         100 * grey_ball_reflectance, text(r.ball_mean), text(r.ball_brightest), code(r.ball_code)));
+  for (const References::Patch& p : r.greys)
+    print_note(fmt::format("chart, {} ({:.3g} %): {}; on the display {}", p.name, 100 * p.reflectance, text(p.light),
+                           code(p.code)));
+}
+
+void write_references(JsonWriter& w, const References& r) {
+  const auto list = [&](const char* name, const Color& c) {
+    w.key(name).open_list().value(c.x).value(c.y).value(c.z).close();
+  };
+  w.key("references").open_object().key("grey_ball").open_object();
+  w.member("reflectance", grey_ball_reflectance);
+  list("mean", r.ball_mean);
+  list("brightest", r.ball_brightest);
+  list("code", r.ball_code);
+  w.close().key("greys").open_list();
+  for (const References::Patch& p : r.greys) {
+    w.open_object().member("name", p.name).member("reflectance", p.reflectance);
+    list("light", p.light);
+    list("code", p.code);
+    w.close();
+  }
+  w.close().close();
 }
 
 int report_dry_run(const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {

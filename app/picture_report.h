@@ -1,11 +1,13 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "look/json_writer.h"
 #include "picture_flags.h"
+#include "render/references.h"
 
 namespace sateen::app {
 
@@ -18,6 +20,12 @@ void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts);
 
 /// What is about to be rendered, in a few lines, and every warning of the assembly.
 void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneReport& report);
+
+/// The balls and the chart where they were asked for, and what they measure, for people and for --stats.
+std::optional<References> references_of(const PictureFlags& flags, const PictureJob& job, const Scene& scene,
+                                        const ColorManager& colors);
+void print_references(const References& references);
+void write_references(JsonWriter& w, const References& references);
 
 /// What --dry-run says; returns the exit code.
 int report_dry_run(const PictureFlags& flags, const PictureJob& job, const SceneReport& report);

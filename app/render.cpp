@@ -59,6 +59,7 @@ struct Work {
   const SceneReport& report;
   const ColorManager& colors;
   Checkpoint state;
+  std::optional<References> references = {};
 
   std::vector<WrittenPicture> write_pictures(const RenderResult& result) const {
     PictureContent content;
@@ -68,6 +69,7 @@ struct Work {
     content.display = job.display;
     content.exposure_ev = job.exposure_ev;
     content.attributes = picture_attributes(job, report, result);
+    if (references) content.overlay = &references->overlay;
     std::vector<WrittenPicture> written;
     for (const std::string& output : flags.picture.outputs) written.push_back(write_picture(output, content, colors));
     return written;
@@ -139,6 +141,7 @@ bool read_render_flags(const std::vector<std::string>& words, RenderFlags& flags
                   "Renders one picture. Without any flag: the default satin, to sateen.png and sateen.exr here.",
                   "[--look NAME] [--mesh FILE] [--env MAP] [-o FILE]... [flags]");
   add_picture_flags(command, flags.picture);
+  add_shutter_flag(command, flags.picture.scene.stage);
   add_going_on(command, flags);
   describe(command);
   if (!command.parse(words)) return false;
@@ -196,6 +199,7 @@ int run_render(const std::vector<std::string>& words) {
   if (!report_verdicts(job.plan, job.verdicts)) return failed;
   Work work{all, words, job, report, colors, std::move(begun)};
   start(work);
+  work.references = references_of(flags, job, scene, colors);
   if (flags.dry_run) return report_dry_run(flags, job, report);
 
   Progress progress(flags.progress, progress_writer(flags.progress));
@@ -226,12 +230,14 @@ int run_render(const std::vector<std::string>& words) {
 
   for (const WrittenPicture& file : written) print_written(job, file);
   print_result_line(job, result);
+  if (work.references) print_references(*work.references);
   if (stopped) print_note(fmt::format("--resume {} goes on from here", shell_line({checkpoint})));
   const int code = picture_code(flags, result);
   JsonWriter w;
   w.open_object();
   write_job(w, flags, job, report);
   write_result(w, result, written);
+  if (work.references) write_references(w, *work.references);
   if ((flags.bill || !flags.stats.empty()) && !stopped) make_out_bill(w, flags, job, scene, colors);
   if (!checkpoint.empty()) w.member("checkpoint", checkpoint);
   write_stats(flags, w.member("exit_code", code).close().text());

@@ -22,7 +22,7 @@ struct TurntableFlags {
   PictureFlags picture;
   std::string turn = "object", frames, sheet;
   int count = 36;
-  double degrees = 360;
+  double degrees = 360, motion_blur = 0;
   bool labels = true, redo = false;
 };
 
@@ -41,6 +41,8 @@ void describe(Command& c, TurntableFlags& f) {
   c.integer("-n,--count", "N", f.count, 1, 100000, "frames of the whole orbit (default: 36)");
   c.number("--degrees", "DEG", f.degrees, -36000, 36000, "of the whole orbit (default: 360)");
   c.text("--frames", "LIST", f.frames, "only these: 1-100, 1-100x2, 1..10, 1,5,9 (default: 1 to N)");
+  c.number("--motion-blur", "SHARE", f.motion_blur, 0, 1,
+           "of the step between frames that the shutter is open: 0.5 is a shutter of 180 degrees (default: 0)");
   c.flag("--redo", f.redo, "renders frames anew that are finished already");
   c.text("--sheet", "FILE", f.sheet, "a sheet of all these frames, small");
   c.flag("--labels", f.labels, "frame and angle under each picture of the sheet (default)");
@@ -103,6 +105,7 @@ class Turntable {
     report_.metered_ev = turntable_exposure(scene_.environment, turn, p.scene.camera.azimuth_deg,
                                             p.scene.environment_ev, flags_.degrees);
     start_ = start_turntable(scene_, p.scene.camera, turn);
+    set_turning_stage(scene_, start_, p.scene.stage);
     job_ = make_job(p, report_, scene_, colors_, words);
   }
 
@@ -140,6 +143,8 @@ class Turntable {
                            frame.job.display,
                            frame.job.exposure_ev,
                            picture_attributes(frame.job, report_, result)};
+    const std::optional<References> references = references_of(flags_.picture, frame.job, scene_, colors_);
+    if (references) content.overlay = &references->overlay;
     for (const std::string& file : files) written.push_back(write_picture(file, content, colors_));
     return result;
   }
@@ -181,6 +186,9 @@ int run_turntable(const std::vector<std::string>& words) {
   const std::vector<int> numbers =
       parse_frames(flags.frames.empty() ? fmt::format("1-{}", flags.count) : flags.frames);
   check_names(flags, numbers);
+  if (flags.motion_blur > 0 && flags.turn == "light")
+    throw InputError("--motion-blur with --turn light: nothing that is seen moves", "leave one of them out");
+  flags.picture.scene.stage.shutter_deg = float(flags.motion_blur * flags.degrees / flags.count);
 
   Turntable turntable(flags, "turntable " + shell_line(words));
   const PictureFlags& picture = flags.picture;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe|effects]...
+# Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe|cost|effects]...
 # A quarter of an hour on one core. SATEEN: the program (build/bin/sateen). GARMENTS and MAPS: folders with the
 # garments of MakeHuman and HDR maps by Greg Zaal, both CC0; without them those pictures are left as they are.
 set -euo pipefail
@@ -71,7 +71,7 @@ cost() {
   echo "$out/cost.png"
 }
 
-# Pairs without and with what textures, patterns and gaps do.
+# Pairs: the same scene without and with an effect.
 effects() {
   local pair=(-r 640 360 -s 48)
   picture effect_maps_off -l printed_silk --set color=0.72,0.62,0.5 "${pair[@]}"
@@ -81,6 +81,24 @@ effects() {
   # Without gaps the threads lie close: the same ones over the whole of the area.
   picture effect_gaps_off -l silk_organza --set warp.coverage=0.5 --set weft.coverage=0.5 "${pair[@]}"
   picture effect_gaps_on -l silk_organza "${pair[@]}"
+  local wide=(-r 640 360 -s 48 --adaptive --bounces 1)
+  picture effect_ground_off "${wide[@]}"
+  picture effect_ground_on --ground floor "${wide[@]}"
+  picture effect_ground_cyclorama --ground cyclorama --ground-color 0.25,0.3,0.36 "${wide[@]}"
+  picture effect_motion_blur_off --ground floor -l emerald_satin "${wide[@]}"
+  picture effect_motion_blur_on --ground floor -l emerald_satin --shutter 12 "${wide[@]}"
+  picture effect_references_off --ground floor -l crimson_velvet "${wide[@]}"
+  picture effect_references_on --ground floor -l crimson_velvet --references "${wide[@]}"
+  if [ ! -d "$maps" ]; then
+    echo "no $maps: depth of field and backdrops are left as they are" >&2
+    return
+  fi
+  local outside=(-e "$maps/city.exr" -l rose_gold_satin --ground catcher --backdrop environment --elevation 8)
+  picture effect_dof_off "${outside[@]}" --zoom 1.5 "${wide[@]}"
+  picture effect_dof_on "${outside[@]}" --zoom 1.5 --f-stop 1.2 "${wide[@]}"
+  local forest=(-e "$maps/forest.exr" -l rose_gold_satin --elevation 4)
+  picture effect_backdrop_off "${forest[@]}" --backdrop environment "${wide[@]}"
+  picture effect_backdrop_on "${forest[@]}" --backdrop blurred:30 "${wide[@]}"
 }
 
 [ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe cost effects

@@ -31,29 +31,30 @@ void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, std::
   std::array<Ray, 2 * batch_size> shadow;
   std::array<float*, 2 * batch_size> result;
   size_t n = 0;
+  const Ground* const ground = solid_ground(scene);
+  const bool moves = scene.shutter.has_value();
   for (size_t k = 0; k < points.size(); ++k)
     for (size_t j = 0; j < rays[k].chosen().size(); ++j) {
       const Vec3& direction = rays[k].rays[j].world;
       seen[k][j] = 0;
       // Above the shading horizon but below the triangle's: the cloth itself is in the way.
       if (dot(direction, points[k].facing) <= 0) continue;
-      shadow[n].origin = offset_origin(points[k].surface, direction);
-      shadow[n].direction = direction;
+      const Vec3 traced = moves ? turned_back(direction, points[k].object) : direction;
+      shadow[n].origin = offset_origin(points[k].surface, traced);
+      shadow[n].direction = traced;
+      if (ground) {
+        const Vec3 from = moves ? scene.shutter->to_world(shadow[n].origin, points[k].object) : shadow[n].origin;
+        if (meet_ground(*ground, from, direction, far_away)) continue;
+      }
       result[n++] = &seen[k][j];
     }
   if (!scene.self_shadowing) {
     for (size_t k = 0; k < n; ++k) *result[k] = 1;
     return;
   }
-  counts.shadow += std::int64_t(n);
-  if (counts.log) counts.log->insert(counts.log->end(), shadow.begin(), shadow.begin() + std::ptrdiff_t(n));
-  if (scene.has_gaps) {
-    for (size_t k = 0; k < n; ++k) *result[k] = transmittance(scene, shadow[k], counts);
-    return;
-  }
-  std::array<bool, 2 * batch_size> blocked;
-  scene.rays->occluded_each({shadow.data(), n}, blocked.data());
-  for (size_t k = 0; k < n; ++k) *result[k] = blocked[k] ? 0.0f : 1.0f;
+  std::array<float, 2 * batch_size> passed;
+  trace_shadow_rays(scene, {shadow.data(), n}, counts, passed.data());
+  for (size_t k = 0; k < n; ++k) *result[k] = passed[k];
 }
 
 /// F times `light` at a direction, split into lobes.
@@ -66,6 +67,18 @@ void add_lobes(const FabricView& view, const Vec3& wi, const Color& light, LobeL
 }
 
 }  // namespace
+
+void trace_shadow_rays(const Scene& scene, std::span<const Ray> rays, RayCounts& counts, float* passed) {
+  counts.shadow += std::int64_t(rays.size());
+  if (counts.log) counts.log->insert(counts.log->end(), rays.begin(), rays.end());
+  if (scene.has_gaps) {
+    for (size_t k = 0; k < rays.size(); ++k) passed[k] = transmittance(scene, rays[k], counts);
+    return;
+  }
+  std::array<bool, RayTracer::stream_size> blocked;
+  scene.rays->occluded_each(rays, blocked.data());
+  for (size_t k = 0; k < rays.size(); ++k) passed[k] = blocked[k] ? 0.0f : 1.0f;
+}
 
 void direct_light(const Scene& scene, std::span<const ClothPoint> points, const LightSettings& settings,
                   const SequenceBatch& samples, PathScratch& scratch, LobeLight* light) {

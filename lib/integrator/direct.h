@@ -34,12 +34,17 @@ struct PathScratch {
   FabricView view;                               ///< of the hit that is being lit
   FabricView vertex;                             ///< of the vertex that a path leaves
   std::array<SamplerView, batch_size> samplers;  ///< of a batch of hits
+  MovingRays moving;                             ///< of a batch, under a shutter
   RayCounts counts;
 };
 
+/// Share of the environment's light that the cloth lets pass along up to RayTracer::stream_size rays: 0 or 1, or what
+/// gaps let pass.
+void trace_shadow_rays(const Scene& scene, std::span<const Ray> rays, RayCounts& counts, float* passed);
+
 /// One unbiased estimate for each of up to batch_size points of the environment's light by way of the cloth,
-/// shadowed by the cloth. `samples` holds each point's sequence and its place in it. An estimate has the same bits in
-/// any batch.
+/// shadowed by the cloth and the ground. `samples` holds each point's sequence and its place in it. An estimate has
+/// the same bits in any batch.
 void direct_light(const Scene& scene, std::span<const ClothPoint> points, const LightSettings& settings,
                   const SequenceBatch& samples, PathScratch& scratch, LobeLight* light);
 

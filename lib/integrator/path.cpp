@@ -3,14 +3,12 @@
 #include <cmath>
 
 #include "film/filter.h"
-#include "scene/footprint.h"
+#include "integrator/bounces.h"
+#include "integrator/ground_light.h"
 
 namespace sateen {
 
 namespace {
-
-constexpr int most_layers = 64;    // of sheer cloth along one ray
-constexpr int roulette_after = 3;  // bounces that are always followed
 
 bool finite(const Color& c) {
   return std::isfinite(c.x + c.y + c.z);
@@ -18,112 +16,61 @@ bool finite(const Color& c) {
 
 // A value that is not finite is a fault somewhere below: it is dropped, counted and reported, never masked in
 // silence.
-bool keep(const LobeLight& light, RayCounts& counts) {
-  if (finite(light.total())) return true;
+bool keep(const Color& light, RayCounts& counts) {
+  if (finite(light)) return true;
   ++counts.non_finite;
   return false;
 }
 
-/// A batch of one: sample `id` at its `bounce`-th vertex, or its layer -bounce.
-SequenceBatch alone(std::uint32_t seed, const SampleId& id, int bounce) {
-  SequenceBatch batch;
-  batch.count = 1;
-  batch.seed[0] = pixel_sequence(seed, id.x, id.y, id.replicate, bounce).seed;
-  batch.index[0] = id.index;
-  return batch;
-}
+/// The samples of a batch that see one kind of surface: their vertices, and where they come from.
+template <class Point>
+struct Seen {
+  std::array<Point, batch_size> points;
+  std::array<size_t, batch_size> sample;
+  SequenceBatch numbers;
 
-constexpr float bounce_cone = 0.1f;  // radius of what a bounced ray stands for, over its length
-
-/// A point met by a camera ray, `ray` as it left the camera. `id`: the sample, at its layer -bounce.
-ClothPoint seen_point(const Scene& scene, const Hit& hit, const Ray& ray, std::uint32_t seed, const SampleId& id,
-                      int bounce) {
-  ClothPoint point = cloth_point(scene, hit, ray.direction);
-  if (!scene.has_maps) return point;
-  const Sequence sequence = pixel_sequence(seed, id.x, id.y, id.replicate, bounce);
-  double choice = draw(sequence, Dimension::pattern, id.index);
-  apply_maps(scene, ray.direction, camera_footprint(scene.camera, ray, point.surface), choice, point);
-  return point;
-}
-
-/// A point met by a bounced ray, whose `choice` is drawn for it.
-ClothPoint bounced_point(const Scene& scene, const Hit& hit, const Vec3& direction, double& choice) {
-  ClothPoint point = cloth_point(scene, hit, direction);
-  if (scene.has_maps)
-    apply_maps(scene, direction, round_footprint(point.surface, bounce_cone * hit.t), choice, point);
-  return point;
-}
-
-LobeLight direct_light(const Scene& scene, const ClothPoint& point, const LightSettings& settings,
-                       const SequenceBatch& sample, PathScratch& scratch) {
-  LobeLight light;
-  direct_light(scene, {&point, 1}, settings, sample, scratch, &light);
-  return light;
-}
-
-/// Light after two and more meetings, from `point` on, by bounce.
-BounceLight indirect_light(const Scene& scene, const LightSettings& settings, ClothPoint point, std::uint32_t seed,
-                           const SampleId& id, PathScratch& scratch) {
-  const FabricSampler sampler = strategy_sampler(settings.strategy);
-  BounceLight light;
-  Color throughput(1);
-  for (int bounce = 1; bounce <= settings.bounces; ++bounce) {
-    // The numbers of the vertex that is left may also have served its direct light, which is added to this. Those of
-    // the vertex that is met must be others: its light is multiplied by what was drawn on the way to it.
-    const Sequence left = alone(seed, id, bounce - 1).sequence(0);
-    const SequenceBatch met_batch = alone(seed, id, bounce);
-    const Sequence met = met_batch.sequence(0);
-    FabricRandom u;
-    u.choice = draw(left, Dimension::table_view, id.index);
-    u.thread = draw2(left, Dimension::talk_thread, id.index);
-    const Dimension used = sampler == FabricSampler::table  ? Dimension::table
-                           : sampler == FabricSampler::talk ? Dimension::talk
-                                                            : Dimension::uniform;
-    u.direction = draw2(left, used, id.index);
-    prepare_view(*point.fabric, point.wo, sampler, scratch.vertex, point.own_values());
-    const std::optional<Vec3> wi = sample(scratch.vertex.sampler, u);
-    if (!wi) break;
-    const BsdfValue value = evaluate_with_pdf(scratch.vertex, *wi);
-    if (!(value.pdf > 0)) break;
-    throughput *= value.f_cos / value.pdf;
-    if (bounce > roulette_after) {
-      const float stay = std::min(max_component(throughput), 0.95f);
-      if (!(float(draw(met, Dimension::roulette, id.index)) < stay)) break;
-      throughput /= stay;
-    }
-    if (!(max_component(throughput) > 0)) break;
-
-    const Vec3 direction = point.frame.to_world(*wi);
-    if (dot(direction, point.facing) <= 0) break;
-    Ray ray;
-    ray.origin = offset_origin(point.surface, direction);
-    ray.direction = direction;
-    ++scratch.counts.bounce;
-    std::optional<Hit> hit = scene.rays->closest_hit(ray);
-    if (!hit) break;  // the environment was counted at the vertex before
-    double choice = scene.has_maps ? draw(met, Dimension::pattern, id.index) : 0;
-    point = bounced_point(scene, *hit, direction, choice);
-    // Each layer of sheer cloth is passed with its gaps' probability.
-    double pass = scene.has_gaps ? draw(met, Dimension::gap, id.index) : 1;
-    for (int layer = 0; hit && pass < double(point.gap) && layer < most_layers; ++layer) {
-      pass /= double(point.gap);
-      ray.origin = offset_origin(point.surface, direction);
-      ++scratch.counts.bounce;
-      hit = scene.rays->closest_hit(ray);
-      if (hit) point = bounced_point(scene, *hit, direction, choice);
-    }
-    if (!hit || !(point.gap < 1)) break;
-    // What scatters here was chosen with the probability of not passing; F holds the gaps' share already.
-    throughput /= 1 - point.gap;
-
-    const LobeLight direct = direct_light(scene, point, settings, met_batch, scratch);
-    const Color sent = throughput * direct.total();
-    if (finite(sent))
-      light.bounce[std::min(bounce, tracked_bounces) - 1] += sent;
-    else
-      ++scratch.counts.non_finite;
+  size_t count() const { return size_t(numbers.count); }
+  void add(const Point& point, size_t k, const SequenceBatch& all) {
+    const auto n = size_t(numbers.count++);
+    points[n] = point;
+    sample[n] = k;
+    numbers.seed[n] = all.seed[k];
+    numbers.index[n] = all.index[k];
   }
-  return light;
+};
+
+/// Weights of the indirect light of a batch: 0 for the samples that do not follow it.
+Batch1 follow_weights(const LightSettings& settings, const SequenceBatch& samples) {
+  Batch1 weights{};
+  if (settings.bounces == 0) return weights;
+  Batch1 choice{};  // 0 is always below the share
+  if (settings.bounce_share < 1) choice = draw(samples, Dimension::bounces);
+  for (size_t k = 0; k < size_t(samples.count); ++k)
+    if (choice[k] < double(settings.bounce_share)) weights[k] = double(1 / settings.bounce_share);
+  return weights;
+}
+
+/// Indirect light of the points that follow it, times their weights; the others get none.
+template <class Point>
+void indirect_light(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                    std::span<const Point> points, const Batch1& weights, const SampleId* const* ids,
+                    PathScratch& scratch, BounceLight* light) {
+  std::array<PathStart, batch_size> starts;
+  std::array<size_t, batch_size> of;
+  std::array<BounceLight, batch_size> followed;
+  size_t count = 0;
+  for (size_t n = 0; n < points.size(); ++n) {
+    light[n] = {};
+    if (weights[n] == 0) continue;
+    of[count] = n;
+    starts[count++] = {points[n], *ids[n]};
+  }
+  if (count == 0) return;
+  follow_bounces(scene, settings, seed, {starts.data(), count}, scratch, followed.data());
+  for (size_t m = 0; m < count; ++m) {
+    light[of[m]] = followed[m];
+    for (Color& bounce : light[of[m]].bounce) bounce *= float(weights[of[m]]);
+  }
 }
 
 /// The backdrop, of which `passed` reaches the eye.
@@ -132,26 +79,115 @@ void see_backdrop(const Scene& scene, const Vec3& direction, float passed, Camer
     out.backdrop = environment_backdrop(scene.environment, direction) * passed;
   else if (scene.backdrop == Backdrop::plain)
     out.backdrop = scene.backdrop_color * passed;
+  else if (scene.backdrop == Backdrop::blurred && scene.blurred)
+    out.backdrop = blurred_radiance(*scene.blurred, scene.environment, direction) * passed;
   out.alpha = scene.backdrop == Backdrop::none ? 1 - passed : 1;
 }
 
-/// What is seen through the gaps of the first layer of sheer cloth; `follow` is the weight of its indirect light.
-void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, Ray ray, std::uint32_t seed,
-                  const SampleId& id, float follow, PathScratch& scratch, CameraSample& out) {
-  const Ray eye = ray;
+/// Ground that the eye sees along `direction`, `passed` of it, with the light that it got.
+void see_ground(const Scene& scene, const GroundPoint& point, const GroundLight& light, const BounceLight& indirect,
+                const Vec3& direction, float passed, PathScratch& scratch, CameraSample& out) {
+  const bool catches = !scene.ground->blocks_light();
+  const float covered = catches ? shadow_share(scene, light) : ground_opacity(*scene.ground, point.position);
+  see_backdrop(scene, direction, passed * (1 - covered), out);
+  if (catches) return;
+  const Color radiance = light.reached * scene.ground->albedo;
+  if (keep(radiance, scratch.counts)) out.backdrop += radiance * (covered * passed);
+  if (out.hit) {
+    out.through_gaps += indirect.total() * (covered * passed);
+    return;
+  }
+  out.indirect = indirect;
+  for (Color& bounce : out.indirect.bounce) bounce *= covered * passed;
+}
+
+/// What is seen through the gaps of the first layer of sheer cloth; `eye` the camera ray as it is traced, `follow` the
+/// weight of indirect light.
+void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, const Ray& eye,
+                  std::uint32_t seed, const SampleId& id, double follow, PathScratch& scratch, CameraSample& out) {
+  const YTurn object = point.object;
+  const Vec3 direction = scene.shutter ? turned(eye.direction, object) : eye.direction;
+  const SampleId* const ids[] = {&id};
+  Batch1 weight{};
+  weight[0] = follow;
   float passed = point.gap;
   for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
+    Ray ray = eye;
     ray.origin = offset_origin(point.surface, ray.direction);
     ++scratch.counts.camera;
-    const std::optional<Hit> hit = scene.rays->closest_hit(ray);
-    if (!hit) return see_backdrop(scene, ray.direction, passed, out);
-    point = seen_point(scene, *hit, eye, seed, id, -layer);
     // Another layer gets numbers of its own.
-    const LobeLight direct = direct_light(scene, point, settings, alone(seed, id, -layer), scratch);
-    if (keep(direct, scratch.counts)) out.through_gaps += direct.total() * passed;
-    if (follow > 0)
-      out.through_gaps += indirect_light(scene, settings, point, seed, id, scratch).total() * (passed * follow);
+    const SequenceBatch numbers = alone(seed, id, -layer);
+    double choice = scene.has_maps ? draw(numbers.sequence(0), Dimension::pattern, id.index) : 0;
+    const std::optional<Vertex> next =
+        meet(scene, ray, object, scene.ground ? &*scene.ground : nullptr,
+             [&](const Hit& hit) { return seen_cloth(scene, hit, eye, object, choice); });
+    if (!next) return see_backdrop(scene, direction, passed, out);
+    BounceLight indirect;
+    if (const auto* ground = std::get_if<GroundPoint>(&*next)) {
+      GroundLight light;
+      light_on_ground(scene, {ground, 1}, numbers, scratch.counts, &light);
+      indirect_light<GroundPoint>(scene, settings, seed, {ground, 1}, weight, ids, scratch, &indirect);
+      return see_ground(scene, *ground, light, indirect, direction, passed, scratch, out);
+    }
+    point = std::get<ClothPoint>(*next);
+    LobeLight direct;
+    direct_light(scene, {&point, 1}, settings, numbers, scratch, &direct);
+    if (keep(direct.total(), scratch.counts)) out.through_gaps += direct.total() * passed;
+    indirect_light<ClothPoint>(scene, settings, seed, {&point, 1}, weight, ids, scratch, &indirect);
+    out.through_gaps += indirect.total() * passed;
     passed *= point.gap;
+  }
+}
+
+template <class Point>
+std::array<const SampleId*, batch_size> ids_of(const Seen<Point>& seen, std::span<const SampleId> samples) {
+  std::array<const SampleId*, batch_size> ids;
+  for (size_t n = 0; n < seen.count(); ++n) ids[n] = &samples[seen.sample[n]];
+  return ids;
+}
+
+void light_ground(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                  std::span<const SampleId> samples, const Seen<GroundPoint>& seen, const Ray* rays,
+                  PathScratch& scratch, CameraSample* out) {
+  const std::span<const GroundPoint> points{seen.points.data(), seen.count()};
+  std::array<GroundLight, batch_size> light;
+  light_on_ground(scene, points, seen.numbers, scratch.counts, light.data());
+  std::array<BounceLight, batch_size> indirect;
+  Batch1 weights{};
+  if (scene.ground->blocks_light()) weights = follow_weights(settings, seen.numbers);
+  indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
+  for (size_t n = 0; n < seen.count(); ++n) {
+    const size_t k = seen.sample[n];
+    see_ground(scene, points[n], light[n], indirect[n], rays[k].direction, 1, scratch, out[k]);
+  }
+}
+
+void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                 std::span<const SampleId> samples, const Seen<ClothPoint>& seen, const Ray* traced,
+                 PathScratch& scratch, CameraSample* out) {
+  const std::span<const ClothPoint> points{seen.points.data(), seen.count()};
+  std::array<LobeLight, batch_size> direct;
+  direct_light(scene, points, settings, seen.numbers, scratch, direct.data());
+  std::array<BounceLight, batch_size> indirect;
+  const Batch1 weights = follow_weights(settings, seen.numbers);
+  indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
+  for (size_t n = 0; n < seen.count(); ++n) {
+    const size_t k = seen.sample[n];
+    const ClothPoint& point = points[n];
+    CameraSample& sample = out[k];
+    sample.hit = true;
+    sample.position =
+        scene.shutter ? scene.shutter->to_world(point.surface.position, point.object) : point.surface.position;
+    sample.normal = point.frame.z;
+    sample.warp = point.frame.x;
+    sample.uv = point.surface.uv;
+    sample.wo = point.wo;
+    sample.back = scene.back && point.on_back;
+    sample.alpha = 1;
+    if (keep(direct[n].total(), scratch.counts)) sample.direct = direct[n];
+    sample.indirect = indirect[n];
+    if (point.gap > 0)
+      look_through(scene, settings, point, traced[k], seed, samples[k], weights[n], scratch, sample);
   }
 }
 
@@ -166,55 +202,42 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
     const Vec2 place = sample_filter(film[k]);
     rays[k] = scene.camera.ray(float(samples[k].x) + 0.5f + place.x, float(samples[k].y) + 0.5f + place.y);
   }
+  if (scene.lens) through_lens(scene.camera, *scene.lens, draw2(all, Dimension::lens), {rays.data(), samples.size()});
+  const Ray* traced = rays.data();
+  if (scene.shutter) {
+    open_shutter(*scene.shutter, draw(all, Dimension::time), {rays.data(), samples.size()}, scratch.moving);
+    traced = scratch.moving.traced.data();
+  }
   std::array<Hit, batch_size> hits;
   std::array<bool, batch_size> found;
   constexpr size_t packet = RayTracer::packet_size;
   for (size_t k = 0; k < samples.size(); k += packet)
-    scene.rays->closest_hits({&rays[k], std::min(samples.size() - k, packet)}, &hits[k], &found[k]);
+    scene.rays->closest_hits({&traced[k], std::min(samples.size() - k, packet)}, &hits[k], &found[k]);
   scratch.counts.camera += std::int64_t(samples.size());
+  Batch1 pattern{};
+  if (scene.has_maps) pattern = draw(all, Dimension::pattern);
 
-  // The hits move together.
-  std::array<ClothPoint, batch_size> points;
-  std::array<size_t, batch_size> sample_of;
-  SequenceBatch met;
+  // What meets the same kind of surface moves together.
+  Seen<ClothPoint> cloth;
+  Seen<GroundPoint> ground;
   for (size_t k = 0; k < samples.size(); ++k) {
     out[k] = {};
-    if (!found[k]) {
+    const YTurn object = scene.shutter ? scratch.moving.object[k] : YTurn();
+    if (scene.ground) {
+      const float t_max = !found[k] ? far_away : scene.ground->blocks_light() ? hits[k].t : 0;
+      const std::optional<GroundPoint> point = met_ground(scene, *scene.ground, traced[k], object, t_max);
+      if (point && ground_opacity(*scene.ground, point->position) > 0) {
+        ground.add(*point, k, all);
+        continue;
+      }
+    }
+    if (found[k])
+      cloth.add(seen_cloth(scene, hits[k], traced[k], object, pattern[k]), k, all);
+    else
       see_backdrop(scene, rays[k].direction, 1, out[k]);
-      continue;
-    }
-    const auto n = size_t(met.count++);
-    points[n] = seen_point(scene, hits[k], rays[k], seed, samples[k], 0);
-    sample_of[n] = k;
-    met.seed[n] = all.seed[k];
-    met.index[n] = all.index[k];
   }
-  if (met.count == 0) return;
-  std::array<LobeLight, batch_size> direct;
-  direct_light(scene, {points.data(), size_t(met.count)}, settings, met, scratch, direct.data());
-  Batch1 choice{};  // 0 is always below the share
-  if (settings.bounces > 0 && settings.bounce_share < 1) choice = draw(met, Dimension::bounces);
-  for (size_t n = 0; n < size_t(met.count); ++n) {
-    const size_t k = sample_of[n];
-    const ClothPoint& point = points[n];
-    CameraSample& sample = out[k];
-    sample.hit = true;
-    sample.position = point.surface.position;
-    sample.normal = point.frame.z;
-    sample.warp = point.frame.x;
-    sample.uv = point.surface.uv;
-    sample.wo = point.wo;
-    sample.back = scene.back && dot(point.facing, point.surface.geometric_normal) < 0;
-    sample.alpha = 1;
-    if (keep(direct[n], scratch.counts)) sample.direct = direct[n];
-    const float follow =
-        settings.bounces > 0 && choice[n] < double(settings.bounce_share) ? 1 / settings.bounce_share : 0.0f;
-    if (follow > 0) {
-      sample.indirect = indirect_light(scene, settings, point, seed, samples[k], scratch);
-      for (Color& light : sample.indirect.bounce) light *= follow;
-    }
-    if (point.gap > 0) look_through(scene, settings, point, rays[k], seed, samples[k], follow, scratch, sample);
-  }
+  if (ground.count() > 0) light_ground(scene, settings, seed, samples, ground, rays.data(), scratch, out);
+  if (cloth.count() > 0) light_cloth(scene, settings, seed, samples, cloth, traced, scratch, out);
 }
 
 CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed,

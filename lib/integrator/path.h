@@ -7,9 +7,9 @@ namespace sateen {
 /// What one camera sample brings to its pixel, working space, in parts that add up to it.
 struct CameraSample {
   LobeLight direct;             ///< environment light after one meeting with the first layer
-  BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth
+  BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth or ground
   Color through_gaps{0, 0, 0};  ///< light of the layers behind the first, seen through its gaps
-  Color backdrop{0, 0, 0};
+  Color backdrop{0, 0, 0};      ///< and the direct light of the ground
   float alpha = 0;   ///< 1 where the backdrop is seen, else the cloth's opacity
   bool hit = false;  ///< the values below are those of the first surface met
   Vec3 position{0, 0, 0}, normal{0, 0, 0}, warp{0, 0, 0};

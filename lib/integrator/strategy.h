@@ -28,7 +28,7 @@ struct LightSettings {
   /// Least error at equal time in most pairs of look and map; a pilot may find a better one (render/pilot.h).
   Strategy strategy = Strategy::mis_compensated;
   int candidates = 4;  ///< of each kind, for resampling, 1 to 64
-  int bounces = 0;     ///< light that meets cloth again, 0 to 64
+  int bounces = 0;     ///< light that meets cloth or ground again, 0 to 64
   /// Share of the samples that follow it, above 0 to 1; their light counts for the others. Light from fold to fold is
   /// smooth and dear: a part of the samples knows it well enough.
   float bounce_share = 1;

@@ -158,6 +158,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
+  set_stage(scene, settings.stage, settings.threads);
   report.environment_hash = hash_environment(scene.environment);
   report.metered_ev = metered_exposure_ev(scene.environment);
   return scene;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "image/color.h"
+#include "render/stage.h"
 #include "scene/scene.h"
 
 namespace sateen {
@@ -27,6 +28,7 @@ struct SceneSettings {
   int width = 960, height = 540;
   Backdrop backdrop = Backdrop::none;
   Color backdrop_color{0, 0, 0};
+  StageSettings stage;
   int threads = 0;
 };
 

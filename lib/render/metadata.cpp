@@ -17,6 +17,8 @@ std::string backdrop_text(const PictureJob& job) {
       return "environment";
     case Backdrop::plain:
       return fmt::format("{} {} {}", c.x, c.y, c.z);
+    case Backdrop::blurred:
+      return fmt::format("blurred {}", job.scene.stage.backdrop_blur_deg);
     case Backdrop::none:
       break;
   }
@@ -55,6 +57,9 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
       {"map rotation", number(s.environment_rotation_deg), {}},
       {"map exposure", number(s.environment_ev), {}},
       {"backdrop", backdrop_text(job), {}},
+      {"ground", ground_text(s.stage), {}},
+      {"lens", lens_text(s.stage), {}},
+      {"shutter", number(s.stage.shutter_deg), {}},
       {"turn", job.turn, {}},
       {"azimuth", number(c.azimuth_deg), {}},
       {"elevation", number(c.elevation_deg), {}},
@@ -86,6 +91,7 @@ std::string job_hash(const PictureJob& job, const SceneReport& report) {
   for (const Fact& fact : sampling_facts(job, report)) add(fact.value);
   add(r.stop.spp, r.stop.error, r.stop.seconds, job.first_sample);
   add(job.display.display, job.display.view, job.exposure_ev);
+  if (job.references) add("references");
   add(job.display.transparent, job.display.ground.has_value());
   if (job.display.ground) add(job.display.ground->x, job.display.ground->y, job.display.ground->z);
   for (const std::string& layer : job.layers) add(layer);
@@ -121,6 +127,10 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   real("fov", double(s.camera.fov_deg));
   real("zoom", double(s.camera.zoom));
   text("backdrop", backdrop_text(job));
+  if (job.references) text("references", "yes");
+  if (s.stage.ground) text("ground", ground_text(s.stage));
+  if (s.stage.lens) text("lens", lens_text(s.stage));
+  if (s.stage.shutter_deg != 0) real("shutter_deg", double(s.stage.shutter_deg));
   if (!job.turn.empty()) text("turn", job.turn);
   if (r.crop.x1 > r.crop.x0)
     text("crop", fmt::format("{} {} {} {} of {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1, s.width, s.height));

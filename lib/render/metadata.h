@@ -23,6 +23,7 @@ struct PictureJob {
   std::string working_space;
   std::string version, command_line;
   int first_sample = 0;  ///< number of a pixel's first sample
+  bool references = false;  ///< balls and chart laid over the picture
   std::string turn;      ///< of a turntable's frame, "object 40"; empty for a still
 };
 

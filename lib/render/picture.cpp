@@ -77,6 +77,13 @@ Image develop_display(const Image& beauty, const ColorManager& colors, const Dis
   return out;
 }
 
+void lay_over(Image& picture, const Image& overlay) {
+  for (size_t i = 0; i < picture.pixels.size(); i += 4) {
+    const float left = 1 - overlay.pixels[i + 3];
+    for (size_t c = 0; c < 4; ++c) picture.pixels[i + c] = picture.pixels[i + c] * left + overlay.pixels[i + c];
+  }
+}
+
 Image crop_image(const Image& image, const Crop& window) {
   if (window.x1 <= window.x0 || window.y1 <= window.y0) return image;
   const int x0 = std::clamp(window.x0, 0, image.width), x1 = std::clamp(window.x1, x0, image.width);
@@ -139,6 +146,7 @@ WrittenPicture write_picture(const fs::path& path, const PictureContent& content
     for (ImageLayer& layer : develop_layers(*content.film)) {
       const auto& wanted = content.layers;
       if (!layer.name.empty() && std::find(wanted.begin(), wanted.end(), layer.name) == wanted.end()) continue;
+      if (layer.name.empty() && content.overlay) lay_over(layer.image, *content.overlay);
       layer.image = crop_image(layer.image, content.crop);
       layers.push_back(std::move(layer));
     }
@@ -147,8 +155,10 @@ WrittenPicture write_picture(const fs::path& path, const PictureContent& content
     written.height = layers[0].image.height;
     written.clamped = write_exr(path, layers, content.attributes, colors.working_chromaticities());
   } else {
-    const Image image = crop_image(
-        develop_display(develop_beauty(*content.film), colors, content.display, content.exposure_ev), content.crop);
+    Image beauty = develop_beauty(*content.film);
+    if (content.overlay) lay_over(beauty, *content.overlay);
+    const Image image =
+        crop_image(develop_display(beauty, colors, content.display, content.exposure_ev), content.crop);
     written.width = image.width;
     written.height = image.height;
     const bool srgb = content.display.display.find("sRGB") != std::string::npos;

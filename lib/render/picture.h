@@ -33,6 +33,9 @@ float paper_code(float x, float y);
 Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
                       float exposure_ev);
 
+/// Lays premultiplied RGBA over premultiplied RGBA of the same size.
+void lay_over(Image& picture, const Image& overlay);
+
 /// The window of an image; the whole where it is empty.
 Image crop_image(const Image& image, const Crop& window);
 
@@ -55,6 +58,7 @@ struct PictureContent {
   DisplaySettings display;          ///< settled
   float exposure_ev = 0;
   Attributes attributes;
+  const Image* overlay = nullptr;  ///< laid over the beauty: premultiplied RGBA of the film's size
 };
 struct WrittenPicture {
   std::filesystem::path path;

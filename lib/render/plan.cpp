@@ -159,7 +159,9 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
   plan.error_asked = error > 0;
   plan.error = plan.error_asked ? error : default_plan_error;
   const MeshForm form = mesh_form(*scene.mesh);
-  const PlanPilot pilot = run_plan_pilot(scene, light, form == MeshForm::folded, seed, threads);
+  // A floor sends light back to cloth of any form.
+  const MeshForm lit_form = solid_ground(scene) ? MeshForm::folded : form;
+  const PlanPilot pilot = run_plan_pilot(scene, light, lit_form == MeshForm::folded, seed, threads);
   plan.effects = plan_model(look, pilot);
 
   PlannedEffect back =
@@ -176,7 +178,7 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
   plan.effects.push_back(gaps);
 
   plan.effects.push_back(plan_self_shadowing(form, switches));
-  Bounces bounces = plan_bounces(pilot, form, switches, plan.error);
+  Bounces bounces = plan_bounces(pilot, lit_form, switches, plan.error);
   plan.bounces = bounces.count;
   plan.bounce_share = plan.bounces > 0 ? switches.bounce_share.value_or(pilot.bounce_share) : 1;
   bounces.planned.cost *= double(plan.bounce_share);
@@ -186,7 +188,7 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
 
   PlannedEffect backdrop = described(
       Effect::backdrop, scene.backdrop != Backdrop::none, switches,
-      scene.backdrop == Backdrop::environment ? "the map is seen beside the cloth" : "one colour beside the cloth",
+      scene.backdrop == Backdrop::plain ? "one colour beside the cloth" : "the map is seen beside the cloth",
       "nothing is asked for beside the cloth", "say which: --backdrop environment");
   backdrop.basis = Basis::asked;
   backdrop.share = pilot.backdrop;

@@ -59,6 +59,13 @@ TurntableStart start_turntable(const Scene& scene, const CameraSettings& camera,
   return start;
 }
 
+void set_turning_stage(Scene& scene, TurntableStart& start, const StageSettings& settings) {
+  scene.camera = start.camera;
+  set_stage(scene, settings);
+  scene.shutter = shutter_of(*scene.mesh, double(settings.shutter_deg), start.turn == Turn::camera);
+  if (scene.ground) start.away = scene.ground->away;
+}
+
 void pose_turntable(Scene& scene, const TurntableStart& start, double angle_deg) {
   const double angle = angle_deg * turn_radians;
   const double walk = start.turn == Turn::object ? -angle : start.turn == Turn::camera ? angle : 0;
@@ -68,6 +75,8 @@ void pose_turntable(Scene& scene, const TurntableStart& start, double angle_deg)
   camera.up = turned(camera.up, walk);
   camera.forward = turned(camera.forward, walk);
   scene.camera = walk == 0 ? start.camera : camera;
+  // The wall stays behind the object as the camera sees it.
+  if (scene.ground) scene.ground->away = walk == 0 ? start.away : turned(start.away, walk);
   set_rotation(scene.environment, start.light_rotation + (start.turn == Turn::camera ? 0 : angle));
 }
 

@@ -9,9 +9,12 @@
 
 namespace sateen {
 
+/// Beyond every scene.
+inline constexpr float far_away = 1e30f;
+
 struct Ray {
   Vec3 origin, direction;  ///< direction need not be unit
-  float t_min = 0, t_max = 1e30f;
+  float t_min = 0, t_max = far_away;
 };
 
 /// Where a ray met the mesh. A quad is two flat triangles split along the diagonal from corner 1 to corner 3; (u, v)

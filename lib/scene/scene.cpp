@@ -28,6 +28,7 @@ ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction
   const bool back = dot(point.surface.geometric_normal, to_viewer) < 0;
   const float side = back ? -1.0f : 1.0f;
   point.facing = point.surface.geometric_normal * side;
+  point.on_back = back;
   point.fabric = back && scene.back ? &*scene.back : &scene.front;
 
   Vec3 normal = point.surface.normal * side;
@@ -44,7 +45,7 @@ ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction
 
 void apply_maps(const Scene& scene, const Vec3& direction, const Footprint& footprint, double& choice,
                 ClothPoint& point) {
-  const SideMaps* side = side_maps(scene, dot(point.surface.geometric_normal, point.facing) < 0);
+  const SideMaps* side = side_maps(scene, point.on_back);
   if (!side) return;
   const Vec2& uv = point.surface.uv;
   const FabricMaps* maps = &side->own;
@@ -75,6 +76,12 @@ float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& dir
   const Fabric& fabric = back && scene.back ? *scene.back : scene.front;
   const SideMaps* side = side_maps(scene, back);
   return side ? gap_at(*side, fabric, surface.uv, {}) : fabric.gap;
+}
+
+void turn_point(ClothPoint& point, const YTurn& object) {
+  point.object = object;
+  point.facing = turned(point.facing, object);
+  for (Vec3* axis : {&point.frame.x, &point.frame.y, &point.frame.z}) *axis = turned(*axis, object);
 }
 
 }  // namespace sateen

@@ -4,10 +4,14 @@
 
 #include "fabric/fabric.h"
 #include "mesh/mesh.h"
+#include "scene/blurred_map.h"
 #include "scene/camera.h"
 #include "scene/cloth_maps.h"
 #include "scene/environment.h"
+#include "scene/ground.h"
+#include "scene/lens.h"
 #include "scene/ray_tracer.h"
+#include "scene/shutter.h"
 #include "scene/surface.h"
 
 namespace sateen {
@@ -16,7 +20,8 @@ namespace sateen {
 enum class Backdrop {
   none,         ///< nothing: black, alpha 0
   environment,  ///< the map itself
-  plain         ///< one colour
+  plain,        ///< one colour
+  blurred       ///< the map through a wide kernel, `Scene::blurred`
 };
 
 /// Everything that is rendered, compiled; const while rendering. A copy shares mesh and ray tracer.
@@ -28,12 +33,15 @@ struct Scene {
   Environment environment;
   Camera camera;
   Backdrop backdrop = Backdrop::none;
-  Color backdrop_color{0, 0, 0};  ///< working space
-  bool has_gaps = false;          ///< some look lets light straight through
-  bool self_shadowing = true;     ///< false: no part of the cloth keeps light from another
-  std::shared_ptr<const SideMaps> front_maps,
-      back_maps;          ///< null where nothing varies; the back's own, if it has one
-  bool has_maps = false;  ///< some side has maps
+  Color backdrop_color{0, 0, 0};         ///< working space
+  std::optional<BlurredMap> blurred;     ///< for Backdrop::blurred alone
+  bool has_gaps = false;                 ///< some look lets light straight through
+  bool self_shadowing = true;            ///< false: no part of the cloth keeps light from another
+  bool has_maps = false;                 ///< some side has textures
+  std::shared_ptr<const SideMaps> front_maps, back_maps;  ///< null where nothing varies; the back's own, if it has one
+  std::optional<Ground> ground;
+  std::optional<Lens> lens;              ///< empty: a pinhole
+  std::optional<Shutter> shutter;        ///< empty: nothing turns
 };
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
@@ -42,8 +50,10 @@ struct ClothPoint {
   Frame frame;           ///< may be left-handed: F does not care, and mirrored UVs stay mirrored
   Vec3 facing;           ///< geometric normal on the viewer's side
   const Fabric* fabric;  ///< of the side that is seen
+  bool on_back;          ///< it is the mesh's back
   Vec3 wo;               ///< towards the viewer, cloth frame; wo.z > 0
   float gap;             ///< share of the area here that light and sight pass
+  YTurn object;          ///< under a shutter: how the object stands; `frame` and `facing` are turned with it
   PointValues values;    ///< what textures say here
   bool mapped;           ///< whether they say anything; false: `values` hold nothing
 
@@ -59,5 +69,13 @@ void apply_maps(const Scene& scene, const Vec3& direction, const Footprint& foot
 
 /// Share of light that the gaps at a hit let pass, whichever side `direction` comes from.
 float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& direction);
+
+/// Turns frame and facing of a point as it was traced into the world; `surface` stays where the ray tracer knows it.
+void turn_point(ClothPoint& point, const YTurn& object);
+
+/// The ground that takes part in the light; null where there is none or only a catcher.
+inline const Ground* solid_ground(const Scene& scene) {
+  return scene.ground && scene.ground->blocks_light() ? &*scene.ground : nullptr;
+}
 
 }  // namespace sateen

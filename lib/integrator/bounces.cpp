@@ -1,0 +1,204 @@
+#include "integrator/bounces.h"
+
+#include <cmath>
+
+#include "integrator/ground_light.h"
+
+namespace sateen {
+
+namespace {
+
+constexpr int roulette_after = 3;  // bounces that are always followed
+
+struct Path {
+  Vertex vertex;
+  Color throughput{1, 1, 1};
+  SampleId id;
+  size_t start = 0;
+};
+
+/// Random numbers of one step of all paths.
+struct StepNumbers {
+  // The numbers of the vertex that is left may also have served its direct light, which is added to this. Those of
+  // the vertex that is met must be others: its light is multiplied by what was drawn on the way to it.
+  SequenceBatch met;
+  Batch1 view{}, roulette{}, gap{}, pattern{};
+  Batch2 thread{}, direction{}, ground{};
+};
+
+SequenceBatch sequences(std::uint32_t seed, std::span<const Path> paths, int bounce) {
+  SequenceBatch batch;
+  batch.count = int(paths.size());
+  for (size_t k = 0; k < paths.size(); ++k) {
+    const SampleId& id = paths[k].id;
+    batch.seed[k] = pixel_sequence(seed, id.x, id.y, id.replicate, bounce).seed;
+    batch.index[k] = id.index;
+  }
+  return batch;
+}
+
+StepNumbers draw_step(const Scene& scene, FabricSampler sampler, std::uint32_t seed, std::span<const Path> paths,
+                      int bounce) {
+  StepNumbers u;
+  const SequenceBatch left = sequences(seed, paths, bounce - 1);
+  u.met = sequences(seed, paths, bounce);
+  u.view = draw(left, Dimension::table_view);
+  if (sampler == FabricSampler::talk) u.thread = draw2(left, Dimension::talk_thread);
+  u.direction = draw2(left, sampler == FabricSampler::table  ? Dimension::table
+                            : sampler == FabricSampler::talk ? Dimension::talk
+                                                             : Dimension::uniform);
+  if (solid_ground(scene)) u.ground = draw2(left, Dimension::uniform);
+  if (bounce > roulette_after) u.roulette = draw(u.met, Dimension::roulette);
+  if (scene.has_gaps) u.gap = draw(u.met, Dimension::gap);
+  if (scene.has_maps) u.pattern = draw(u.met, Dimension::pattern);
+  return u;
+}
+
+/// A direction out of the cloth, in its frame and the world's, and its density.
+struct Leaving {
+  Vec3 wi, world;
+  float pdf;
+};
+std::optional<Leaving> leave_cloth(const ClothPoint& point, FabricSampler sampler, const FabricRandom& u,
+                                   SamplerView& view) {
+  prepare_sampler(*point.fabric, point.wo, sampler, view);
+  const std::optional<Vec3> wi = sample(view, u);
+  if (!wi) return std::nullopt;
+  const Leaving leaving{*wi, point.frame.to_world(*wi), pdf(view, *wi)};
+  if (!(leaving.pdf > 0) || dot(leaving.world, point.facing) <= 0) return std::nullopt;
+  return leaving;
+}
+
+/// What a path meets next; each layer of sheer cloth is passed with its gaps' probability `pass`.
+std::optional<Vertex> meet_next(const Scene& scene, Ray ray, const YTurn& object, double pass, double choice,
+                                RayCounts& counts) {
+  const Ground* const ground = solid_ground(scene);
+  const auto cloth = [&](const Hit& hit) { return bounced_cloth(scene, hit, ray, object, choice); };
+  for (int layer = 0;; ++layer) {
+    ++counts.bounce;
+    std::optional<Vertex> next = meet(scene, ray, object, ground, cloth);
+    const ClothPoint* met = next && scene.has_gaps ? std::get_if<ClothPoint>(&*next) : nullptr;
+    if (!met || !(pass < double(met->gap)) || layer == most_layers) return next;
+    pass /= double(met->gap);
+    ray.origin = offset_origin(met->surface, ray.direction);
+  }
+}
+
+/// Takes a path to its next vertex; false where it ends.
+bool step(const Scene& scene, FabricSampler sampler, int bounce, const StepNumbers& u, size_t k, PathScratch& scratch,
+          Path& path) {
+  const auto* cloth = std::get_if<ClothPoint>(&path.vertex);
+  Leaving leaving{};
+  if (cloth) {
+    const std::optional<Leaving> drawn =
+        leave_cloth(*cloth, sampler, {u.view[k], u.thread[k], u.direction[k]}, scratch.vertex.sampler);
+    if (!drawn) return false;
+    leaving = *drawn;
+  } else {
+    leaving.world = leave_ground(std::get<GroundPoint>(path.vertex), u.ground[k]);
+    path.throughput *= scene.ground->albedo;
+  }
+  if (bounce > roulette_after) {
+    const float stay = std::min(max_component(path.throughput), 0.95f);
+    if (!(float(u.roulette[k]) < stay)) return false;
+    path.throughput /= stay;
+  }
+  const std::optional<Vertex> next = meet_next(scene, leave(scene, path.vertex, leaving.world),
+                                               object_turn(path.vertex), u.gap[k], u.pattern[k], scratch.counts);
+  if (!next) return false;  // the environment was counted at the vertex before
+  if (cloth) {
+    prepare_threads(*cloth->fabric, cloth->wo, scratch.vertex, cloth->own_values());
+    path.throughput *= evaluate(scratch.vertex, leaving.wi) / leaving.pdf;
+  }
+  path.vertex = *next;
+  if (const auto* met = std::get_if<ClothPoint>(&path.vertex)) {
+    // What scatters here was chosen with the probability of not passing; F holds the gaps' share already.
+    if (!(met->gap < 1)) return false;
+    path.throughput /= 1 - met->gap;
+  }
+  return max_component(path.throughput) > 0;
+}
+
+void add_light(const Color& sent, int bounce, RayCounts& counts, BounceLight& light) {
+  if (std::isfinite(sent.x + sent.y + sent.z))
+    light.bounce[std::min(bounce, tracked_bounces) - 1] += sent;
+  else
+    ++counts.non_finite;
+}
+
+/// Lights the vertices that the paths have met, cloth and ground each together.
+void light_vertices(const Scene& scene, const LightSettings& settings, std::span<const Path> paths,
+                    const SequenceBatch& met, int bounce, PathScratch& scratch, BounceLight* light) {
+  std::array<ClothPoint, batch_size> cloth;
+  std::array<GroundPoint, batch_size> ground;
+  std::array<size_t, batch_size> cloth_of, ground_of;
+  SequenceBatch on_cloth, on_ground;
+  const auto take = [&](SequenceBatch& batch, std::array<size_t, batch_size>& of, size_t k) {
+    const auto n = size_t(batch.count++);
+    of[n] = k;
+    batch.seed[n] = met.seed[k];
+    batch.index[n] = met.index[k];
+    return n;
+  };
+  for (size_t k = 0; k < paths.size(); ++k)
+    if (const auto* point = std::get_if<ClothPoint>(&paths[k].vertex))
+      cloth[take(on_cloth, cloth_of, k)] = *point;
+    else
+      ground[take(on_ground, ground_of, k)] = std::get<GroundPoint>(paths[k].vertex);
+  if (on_cloth.count > 0) {
+    std::array<LobeLight, batch_size> direct;
+    direct_light(scene, {cloth.data(), size_t(on_cloth.count)}, settings, on_cloth, scratch, direct.data());
+    for (size_t n = 0; n < size_t(on_cloth.count); ++n) {
+      const Path& path = paths[cloth_of[n]];
+      add_light(path.throughput * direct[n].total(), bounce, scratch.counts, light[path.start]);
+    }
+  }
+  if (on_ground.count > 0) {
+    std::array<GroundLight, batch_size> arriving;
+    light_on_ground(scene, {ground.data(), size_t(on_ground.count)}, on_ground, scratch.counts, arriving.data());
+    for (size_t n = 0; n < size_t(on_ground.count); ++n) {
+      const Path& path = paths[ground_of[n]];
+      add_light(path.throughput * arriving[n].reached * scene.ground->albedo, bounce, scratch.counts,
+                light[path.start]);
+    }
+  }
+}
+
+}  // namespace
+
+SequenceBatch alone(std::uint32_t seed, const SampleId& id, int bounce) {
+  SequenceBatch batch;
+  batch.count = 1;
+  batch.seed[0] = pixel_sequence(seed, id.x, id.y, id.replicate, bounce).seed;
+  batch.index[0] = id.index;
+  return batch;
+}
+
+void follow_bounces(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
+                    std::span<const PathStart> starts, PathScratch& scratch, BounceLight* light) {
+  const FabricSampler sampler = strategy_sampler(settings.strategy);
+  std::array<Path, batch_size> paths;
+  size_t alive = starts.size();
+  for (size_t k = 0; k < alive; ++k) {
+    paths[k].vertex = starts[k].vertex;
+    paths[k].id = starts[k].id;
+    paths[k].start = k;
+    light[k] = {};
+  }
+  for (int bounce = 1; bounce <= settings.bounces && alive > 0; ++bounce) {
+    StepNumbers u = draw_step(scene, sampler, seed, {paths.data(), alive}, bounce);
+    size_t kept = 0;
+    for (size_t k = 0; k < alive; ++k) {
+      if (!step(scene, sampler, bounce, u, k, scratch, paths[k])) continue;
+      if (kept != k) paths[kept] = paths[k];
+      u.met.seed[kept] = u.met.seed[k];
+      u.met.index[kept] = u.met.index[k];
+      ++kept;
+    }
+    alive = kept;
+    u.met.count = int(alive);
+    light_vertices(scene, settings, {paths.data(), alive}, u.met, bounce, scratch, light);
+  }
+}
+
+}  // namespace sateen
