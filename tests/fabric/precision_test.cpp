@@ -53,11 +53,11 @@ TEST(Kernel, GivesTheSameBitsInWideAndInNarrowRegisters) {
     for (int view = 0; view < 300; ++view) {
       const Vec3 wo = torture_direction(random);
       prepare_wide_view(fabric.threads, wo.x, wo.y, wo.z, *wide);
-      prepare_view_in<Lanes>(fabric.threads, wo.x, wo.y, wo.z, *narrow);
+      prepare_view_in<PairLanes>(fabric.threads, wo.x, wo.y, wo.z, *narrow);
       for (int i = 0; i < 20; ++i) {
         const Vec3 wi = light_direction(random, wo);
         const Sums a = sums(scatter_wide(fabric.threads, *wide, wi.x, wi.y, wi.z));
-        const Sums b = sums(scatter_in<Lanes>(fabric.threads, *narrow, wi.x, wi.y, wi.z));
+        const Sums b = sums(scatter_in<PairLanes>(fabric.threads, *narrow, wi.x, wi.y, wi.z));
         for (int k = 0; k < 4; ++k) ASSERT_EQ(a.v[k], b.v[k]) << name << " wo " << wo << " wi " << wi;
       }
     }
