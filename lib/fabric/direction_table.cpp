@@ -15,9 +15,9 @@ constexpr int theta_cells = DirectionTable::theta_cells, phi_cells = DirectionTa
 constexpr int cells = DirectionTable::cells, half_columns = phi_cells / 2;
 constexpr double half_pi = 1.57079632679489662;
 constexpr double floor_share = 0.01;  // of the mean, so that every direction can be drawn; 2 % cost 0.001 of variance
-constexpr double crowding_s = 0.15;     // of s towards the ends; without it weights of 33 times the mean, see place_of_s
-constexpr double crowding_view = 0.1;   // of phi_r towards the horizon; variance of grazing views, measured
-constexpr double crowding_cell = 0.5;   // of phi towards the horizon; an even pile wants 1, grazing velvet 0.15
+constexpr double crowding_s = 0.15;  // of s towards the ends; without it weights of 33 times the mean, see place_of_s
+constexpr double crowding_view = 0.1;  // of phi_r towards the horizon; variance of grazing views, measured
+constexpr double crowding_cell = 0.5;  // of phi towards the horizon; an even pile wants 1, grazing velvet 0.15
 constexpr double rim_deg[] = {0, 0.005, 0.08,
                               0.8};  // edges over the horizon; without them weights of 25 times the mean
 constexpr int rim_cells = 3;
@@ -139,11 +139,9 @@ struct SliceMaker {
         const double theta = -half_pi + a * d_theta, from = grid.edge[size_t(b)],
                      d_phi = grid.edge[size_t(b) + 1] - from;
         const double side = column < half_columns ? -1 : 1;
-        // Two points on a diagonal, the other one in the next cell: the mean of 2 x 2 is no better. In the rim F falls
-        // like the inverse height: two heights that give a decade's mean, and both for either theta.
-        const auto at = [&](double i, double j) {
-          return f_cos_theta(theta + i * d_theta, side, from + j * d_phi);
-        };
+        // Two points on a diagonal, the other one in the next cell: the mean of 2 x 2 is no better. In the rim F
+        // falls like the inverse height: two heights that give a decade's mean, and both for either theta.
+        const auto at = [&](double i, double j) { return f_cos_theta(theta + i * d_theta, side, from + j * d_phi); };
         const double first = (a + column) % 2 ? 0.25 : 0.75;
         value[size_t(a * phi_cells + column)] =
             b < rim_cells ? (at(0.25, 0.12) + at(0.25, 0.6) + at(0.75, 0.12) + at(0.75, 0.6)) / 4
@@ -156,9 +154,9 @@ struct SliceMaker {
     double total = 0;
     for (size_t k = 0; k < cells; ++k) {
       const size_t column = k % phi_cells;
-      const double neighbour = std::max({k >= phi_cells ? value[k - phi_cells] : 0,
-                                         k + phi_cells < cells ? value[k + phi_cells] : 0,
-                                         column > 0 ? value[k - 1] : 0, column + 1 < phi_cells ? value[k + 1] : 0});
+      const double neighbour =
+          std::max({k >= phi_cells ? value[k - phi_cells] : 0, k + phi_cells < cells ? value[k + phi_cells] : 0,
+                    column > 0 ? value[k - 1] : 0, column + 1 < phi_cells ? value[k + 1] : 0});
       mass[k] = std::max(value[k], neighbour_share * neighbour) * area(column);
       total += mass[k];
     }

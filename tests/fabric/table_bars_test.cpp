@@ -101,6 +101,41 @@ TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMean) {
   }
 }
 
+// Cloth that nobody has made yet: tilts of any kind, coverage and masking of any kind, lobes of 1.5 to 30 degrees.
+// The bar is 10 for 97 of 100 looks: the ridge of a weft lobe below 2 degrees that is tilted by 64 does not stay put
+// from view to view by turning a slice, and shows 139 times the mean where wo and wi graze the cloth.
+TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMeanForRandomLooks) {
+  auto view = std::make_unique<FabricView>();
+  Random random{24};
+  const int wanted = long_tests() ? 100 : 6, views = long_tests() ? 120 : 40, samples = long_tests() ? 2000 : 400;
+  double worst = 0;
+  int above_ten = 0;
+  for (int count = 0; count < wanted;) {
+    Look look = random_look(random, false);
+    look.masking_width_deg = float(random.between(12, 30));
+    for (ThreadFamily* f : {&look.warp, &look.weft}) {
+      f->eta = float(random.between(1.3, 1.7));
+      f->gamma_s_deg = float(1.5 * std::pow(20.0, random.uniform()));
+      f->gamma_v_deg = f->gamma_s_deg * float(random.between(1.5, 3));
+      f->A.value = Color(float(random.between(0.01, 0.3)));
+    }
+    const Curves curves = curves_of(look);
+    if (curves.warp.size() + curves.weft.size() > 100) continue;  // right, but slow to compile
+    const Fabric fabric = compile_fabric(look, same_space);
+    double largest = 0;
+    for (int k = 0; k < views; ++k) {
+      const double polar = k % 2 ? 89 - 14 * random.uniform() * random.uniform() : random.between(0, 89);
+      const double azimuth = k % 4 ? 90 * random.below(4) + random.between(-40, 40) : random.between(0, 360);
+      largest = std::max(largest, quality_at(fabric, direction(polar, azimuth), samples, 10, *view).largest);
+    }
+    above_ten += largest > 10;
+    worst = std::max(worst, largest);
+    ++count;
+  }
+  EXPECT_LE(above_ten, 0.03 * wanted);
+  printf("table of %d random looks: largest weight %.2f times the mean, %d above 10\n", wanted, worst, above_ten);
+}
+
 TEST(DirectionTable, CompilingAPresetTakesLessThanFourTenthsOfACpuSecond) {
 #if defined(__SANITIZE_ADDRESS__) || !defined(NDEBUG)
   GTEST_SKIP() << "a sanitizer or unoptimised build measures nothing";
