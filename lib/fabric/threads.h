@@ -14,8 +14,8 @@ struct ThreadSums {
   std::array<Real, 2> surface{}, volume{};  ///< warp, weft
 };
 
-/// All tangents of both families as arrays, compiled for one number type: float arrays run in PairLanes or WideLanes, double
-/// arrays one by one as the oracle. cloth-model.md sections 1 to 3. Compiled and immutable.
+/// All tangents of both families as arrays, compiled for one number type: float arrays run in PairLanes or WideLanes,
+/// double arrays one by one as the oracle. cloth-model.md sections 1 to 3. Compiled and immutable.
 template <class Real>
 struct Threads {
   std::vector<Real> start, span, node;   ///< segment and place in it (tangent_curve.h) [radians, radians, 0 to 1]

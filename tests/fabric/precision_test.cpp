@@ -170,8 +170,8 @@ double condition(const Threads<double>& oracle, const Vec3d& wo, const Vec3d& wi
   return change;
 }
 
-// Relative error below 1e-3, but for `slack` of the view's peak and, for looks that nobody would make, eight times the
-// condition above. What no float can state, below 1e-36, does not count.
+// Relative error below 1e-3, but for `slack` of the view's peak and, for looks that nobody would make, eight times
+// the condition above. What no float can state, below 1e-36, does not count.
 void compare_float(const Look& look, Random& random, int views, int lights, double slack, bool conditioned,
                    FloatErrors& errors) {
   const Curves curves = curves_of(look);
