@@ -12,7 +12,7 @@ namespace sateen {
 
 namespace {
 
-constexpr double grazing_panel_deg = 6;  // what the looks' 7-gamma panels need near the horizon
+constexpr double grazing_panel_deg = 8.5;  // a third of the widest panel; near the horizon no look needs shorter ones
 
 // The leading tangents of a curve that form whole panels of panel_nodes.
 size_t count_panel_nodes(const std::vector<Tangent>& tangents) {

@@ -13,7 +13,7 @@ namespace sateen {
 /// phi = atan2(w.y, w.z), where the lobes run along the grid; inside a cell uniform in theta and phi.
 ///
 /// Four things make a small table enough, all measured (docs/numbers.md):
-/// - view nodes lie in s = (theta_r + psi_r)/pi with psi_r = atan2(w.x, w.z), and in phi_r crowded towards the
+/// - view nodes lie in s = (theta_r + psi_r)/pi with psi_r = atan2(w.x, w.z), and in phi_r, both crowded towards the
 /// horizon:
 ///   Q turns with psi_r, the lobes with theta_r, and s resolves both;
 /// - a slice is turned about by theta_r - theta_node before use, so that the lobes of neighbouring views lie on each
@@ -23,7 +23,7 @@ namespace sateen {
 ///   F goes like the inverse of the height over it;
 /// - a look that is its own mirror image in x or in y needs half the views in that axis.
 struct DirectionTable {
-  static constexpr int theta_cells = 48, phi_cells = 28, cells = theta_cells * phi_cells;
+  static constexpr int theta_cells = 64, phi_cells = 40, cells = theta_cells * phi_cells;
 
   bool mirror_x = false, mirror_y = false;  ///< tabulated for w.x >= 0 or w.y >= 0 alone
   int s_nodes = 0, phi_nodes = 0;

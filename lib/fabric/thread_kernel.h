@@ -6,8 +6,8 @@
 #include "fabric/threads.h"
 #include "math/lane_functions.h"
 
-// The kernel of threads.h, written once over its vector type: Lanes or WideLanes over float arrays, double alone for
-// the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out of
+// The kernel of threads.h, written once over its vector type: PairLanes or WideLanes over float arrays, double alone
+// for the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out of
 // the other.
 
 namespace sateen {

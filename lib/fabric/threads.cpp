@@ -15,7 +15,7 @@ void prepare_view(const Threads<float>& threads, float x, float y, float z, Thre
   if (wide)
     prepare_wide_view(threads, x, y, z, view);
   else
-    prepare_view_in<Lanes>(threads, x, y, z, view);
+    prepare_view_in<PairLanes>(threads, x, y, z, view);
 }
 template <>
 void prepare_view(const Threads<double>& threads, double x, double y, double z, ThreadView<double>& view) {
@@ -24,7 +24,7 @@ void prepare_view(const Threads<double>& threads, double x, double y, double z, 
 
 template <>
 ThreadSums<float> scatter(const Threads<float>& threads, const ThreadView<float>& view, float x, float y, float z) {
-  return wide ? scatter_wide(threads, view, x, y, z) : scatter_in<Lanes>(threads, view, x, y, z);
+  return wide ? scatter_wide(threads, view, x, y, z) : scatter_in<PairLanes>(threads, view, x, y, z);
 }
 template <>
 ThreadSums<double> scatter(const Threads<double>& threads, const ThreadView<double>& view, double x, double y,

@@ -14,8 +14,8 @@ struct ThreadSums {
   std::array<Real, 2> surface{}, volume{};  ///< warp, weft
 };
 
-/// All tangents of both families as arrays, compiled for one number type: float arrays run in Lanes or WideLanes, double
-/// arrays one by one as the oracle. cloth-model.md sections 1 to 3. Compiled and immutable.
+/// All tangents of both families as arrays, compiled for one number type: float arrays run in PairLanes or WideLanes,
+/// double arrays one by one as the oracle. cloth-model.md sections 1 to 3. Compiled and immutable.
 template <class Real>
 struct Threads {
   std::vector<Real> start, span, node;   ///< segment and place in it (tangent_curve.h) [radians, radians, 0 to 1]
@@ -38,7 +38,7 @@ struct Threads {
   std::vector<Real> panel_from, panel_to;
   Real sign_change[panel_nodes + 1][panel_nodes];
 
-  /// The same curves with panels of 6 degrees at most, for pairs with a direction that grazes the cloth: there
+  /// The same curves with panels of 8.5 degrees at most, for pairs with a direction that grazes the cloth: there
   /// everything turns faster along a thread. One entry, or none where all panels are that short.
   std::vector<Threads> grazing;
 };

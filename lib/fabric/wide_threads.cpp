@@ -31,11 +31,11 @@ bool wide_threads_run() {
   return false;
 }
 void prepare_wide_view(const Threads<float>& threads, float x, float y, float z, ThreadView<float>& view) {
-  prepare_view_in<Lanes>(threads, x, y, z, view);
+  prepare_view_in<PairLanes>(threads, x, y, z, view);
 }
 ThreadSums<float> scatter_wide(const Threads<float>& threads, const ThreadView<float>& view, float x, float y,
                                float z) {
-  return scatter_in<Lanes>(threads, view, x, y, z);
+  return scatter_in<PairLanes>(threads, view, x, y, z);
 }
 
 #endif

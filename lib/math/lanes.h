@@ -151,6 +151,67 @@ inline float sum(Lanes a) {
 }
 #endif
 
+/// Sixteen floats in two Lanes: the chains of two blocks side by side keep a processor without AVX-512 busier than
+/// one after the other. Each lane gives the bits that it gives in Lanes.
+struct PairLanes {
+  static constexpr int width = 16;
+  Lanes low, high;
+  PairLanes() = default;
+  PairLanes(Lanes a, Lanes b) : low(a), high(b) {}
+  PairLanes(float x) : low(x), high(x) {}
+  static PairLanes load(const float* p) { return {Lanes::load(p), Lanes::load(p + 8)}; }
+  /// The first four lanes; the others 1.
+  static PairLanes of(float a, float b, float c, float d) { return {Lanes::of(a, b, c, d), Lanes(1)}; }
+  /// Eight lanes of one number, then eight of another.
+  static PairLanes halves(float a, float b) { return {Lanes(a), Lanes(b)}; }
+  /// Eight numbers twice.
+  static PairLanes twice(const float* p) { return {Lanes::load(p), Lanes::load(p)}; }
+  void store(float* p) const { low.store(p), high.store(p + 8); }
+};
+inline PairLanes operator+(PairLanes a, PairLanes b) {
+  return {a.low + b.low, a.high + b.high};
+}
+inline PairLanes operator-(PairLanes a, PairLanes b) {
+  return {a.low - b.low, a.high - b.high};
+}
+inline PairLanes operator*(PairLanes a, PairLanes b) {
+  return {a.low * b.low, a.high * b.high};
+}
+inline PairLanes operator/(PairLanes a, PairLanes b) {
+  return {a.low / b.low, a.high / b.high};
+}
+inline PairLanes min(PairLanes a, PairLanes b) {
+  return {min(a.low, b.low), min(a.high, b.high)};
+}
+inline PairLanes max(PairLanes a, PairLanes b) {
+  return {max(a.low, b.low), max(a.high, b.high)};
+}
+inline PairLanes sqrt(PairLanes a) {
+  return {sqrt(a.low), sqrt(a.high)};
+}
+inline PairLanes abs(PairLanes a) {
+  return {abs(a.low), abs(a.high)};
+}
+inline PairLanes fma(PairLanes a, PairLanes b, PairLanes c) {
+  return {fma(a.low, b.low, c.low), fma(a.high, b.high, c.high)};
+}
+inline PairLanes fnma(PairLanes a, PairLanes b, PairLanes c) {
+  return {fnma(a.low, b.low, c.low), fnma(a.high, b.high, c.high)};
+}
+inline PairLanes select_less(PairLanes a, PairLanes b, PairLanes yes, PairLanes no) {
+  return {select_less(a.low, b.low, yes.low, no.low), select_less(a.high, b.high, yes.high, no.high)};
+}
+inline PairLanes exp2_whole(PairLanes n) {
+  return {exp2_whole(n.low), exp2_whole(n.high)};
+}
+inline PairLanes round_nearest(PairLanes a) {
+  return {round_nearest(a.low), round_nearest(a.high)};
+}
+/// Lane k added to lane k + 8, then as the sum of Lanes.
+inline float sum(PairLanes a) {
+  return sum(a.low + a.high);
+}
+
 #ifdef __AVX512F__
 /// Sixteen floats, only in files compiled for AVX-512. Each lane gives the bits that it gives in Lanes.
 struct WideLanes {

@@ -53,11 +53,11 @@ TEST(Kernel, GivesTheSameBitsInWideAndInNarrowRegisters) {
     for (int view = 0; view < 300; ++view) {
       const Vec3 wo = torture_direction(random);
       prepare_wide_view(fabric.threads, wo.x, wo.y, wo.z, *wide);
-      prepare_view_in<Lanes>(fabric.threads, wo.x, wo.y, wo.z, *narrow);
+      prepare_view_in<PairLanes>(fabric.threads, wo.x, wo.y, wo.z, *narrow);
       for (int i = 0; i < 20; ++i) {
         const Vec3 wi = light_direction(random, wo);
         const Sums a = sums(scatter_wide(fabric.threads, *wide, wi.x, wi.y, wi.z));
-        const Sums b = sums(scatter_in<Lanes>(fabric.threads, *narrow, wi.x, wi.y, wi.z));
+        const Sums b = sums(scatter_in<PairLanes>(fabric.threads, *narrow, wi.x, wi.y, wi.z));
         for (int k = 0; k < 4; ++k) ASSERT_EQ(a.v[k], b.v[k]) << name << " wo " << wo << " wi " << wi;
       }
     }
@@ -170,8 +170,8 @@ double condition(const Threads<double>& oracle, const Vec3d& wo, const Vec3d& wi
   return change;
 }
 
-// Relative error below 1e-3, but for `slack` of the view's peak and, for looks that nobody would make, eight times the
-// condition above. What no float can state, below 1e-36, does not count.
+// Relative error below 1e-3, but for `slack` of the view's peak and, for looks that nobody would make, eight times
+// the condition above. What no float can state, below 1e-36, does not count.
 void compare_float(const Look& look, Random& random, int views, int lights, double slack, bool conditioned,
                    FloatErrors& errors) {
   const Curves curves = curves_of(look);

@@ -13,7 +13,6 @@ namespace {
 
 struct Quality {
   double variance = 0;  ///< of F / pdf, over that of the uniform hemisphere sampler
-  double relative = 0;  ///< variance of F / pdf over the square of its mean
   double largest = 0;   ///< weight over the mean
 };
 
@@ -35,7 +34,7 @@ Quality quality_at(const Fabric& fabric, const Vec3& wo, int samples, std::uint3
   }
   const double mean = sum / samples;
   const double variance = squares / samples - mean * mean;
-  return {variance / (2 * M_PI * uniform / samples - mean * mean), variance / (mean * mean), largest / mean};
+  return {variance / (2 * M_PI * uniform / samples - mean * mean), largest / mean};
 }
 
 bool is_preset(const Look& look) {
@@ -54,9 +53,6 @@ TEST(DirectionTable, VarianceStaysBelowSixHundredthsOfUniformAtEveryView) {
           if (!long_tests() && !is_preset(look) && (quarter + int(off)) % 2) continue;
           const double azimuth = 90 * quarter + off;
           const Quality q = quality_at(fabric, direction(polar, azimuth), samples, 7, *view);
-          // A pile seen from above is so even that the uniform sampler is nearly perfect, and a ratio to it says
-          // nothing.
-          if (!is_preset(look) && q.relative < 0.01) continue;
           if (q.variance > worst) worst = q.variance, where[0] = polar, where[1] = azimuth;
         }
     EXPECT_LT(worst, 0.06) << look.name << " at " << where[0] << ", " << where[1];
@@ -103,6 +99,41 @@ TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMean) {
     printf("table of %-32s largest of %d weights: %.2f times the mean\n", look.name.c_str(), views * samples,
            largest);
   }
+}
+
+// Cloth that nobody has made yet: tilts of any kind, coverage and masking of any kind, lobes of 1.5 to 30 degrees.
+// The bar is 10 for 97 of 100 looks: the ridge of a weft lobe below 2 degrees that is tilted by 64 does not stay put
+// from view to view by turning a slice, and shows 139 times the mean where wo and wi graze the cloth.
+TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMeanForRandomLooks) {
+  auto view = std::make_unique<FabricView>();
+  Random random{24};
+  const int wanted = long_tests() ? 100 : 6, views = long_tests() ? 120 : 40, samples = long_tests() ? 2000 : 400;
+  double worst = 0;
+  int above_ten = 0;
+  for (int count = 0; count < wanted;) {
+    Look look = random_look(random, false);
+    look.masking_width_deg = float(random.between(12, 30));
+    for (ThreadFamily* f : {&look.warp, &look.weft}) {
+      f->eta = float(random.between(1.3, 1.7));
+      f->gamma_s_deg = float(1.5 * std::pow(20.0, random.uniform()));
+      f->gamma_v_deg = f->gamma_s_deg * float(random.between(1.5, 3));
+      f->A.value = Color(float(random.between(0.01, 0.3)));
+    }
+    const Curves curves = curves_of(look);
+    if (curves.warp.size() + curves.weft.size() > 100) continue;  // right, but slow to compile
+    const Fabric fabric = compile_fabric(look, same_space);
+    double largest = 0;
+    for (int k = 0; k < views; ++k) {
+      const double polar = k % 2 ? 89 - 14 * random.uniform() * random.uniform() : random.between(0, 89);
+      const double azimuth = k % 4 ? 90 * random.below(4) + random.between(-40, 40) : random.between(0, 360);
+      largest = std::max(largest, quality_at(fabric, direction(polar, azimuth), samples, 10, *view).largest);
+    }
+    above_ten += largest > 10;
+    worst = std::max(worst, largest);
+    ++count;
+  }
+  EXPECT_LE(above_ten, 0.03 * wanted);
+  printf("table of %d random looks: largest weight %.2f times the mean, %d above 10\n", wanted, worst, above_ten);
 }
 
 TEST(DirectionTable, CompilingAPresetTakesLessThanFourTenthsOfACpuSecond) {

@@ -164,7 +164,10 @@ TEST(Sun, StraightAboveGivesFTimesItsIrradiance) {
     for (const NamedSettings& settings : all) {
       // 1 direction in 14,000 meets the small one: only who knows the map can be held to it.
       if (width == 64 && !knows_the_map(settings.light.strategy)) continue;
-      expect_value(estimate(scene, settings.light, 1024), expected, bound(2 * all.size() * 3), 1e-4, settings.name);
+      // Of the small one MIS leaves the table 1.3e-4, its chance to draw it: where it never does, neither value nor
+      // standard error know.
+      const double slack = width == 64 ? 2e-4 : 1e-4;
+      expect_value(estimate(scene, settings.light, 1024), expected, bound(2 * all.size() * 3), slack, settings.name);
     }
   }
 }
