@@ -86,6 +86,7 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
   fabric.gap = fabric.threads.gap;
   fabric.warp_angle = radians(look.warp_angle_deg);
   fabric.talk = compile_talk(look, warp, weft);
+  fabric.weave = compile_weave(look);
 
   const bool solve = look.warp.color || look.weft.color;
   const Albedo normal = solve ? albedo(fabric.threads, Vec3(0, 0, 1)) : Albedo();

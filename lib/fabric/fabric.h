@@ -7,6 +7,7 @@
 #include "fabric/direction_table.h"
 #include "fabric/talk_sampler.h"
 #include "fabric/threads.h"
+#include "fabric/weave.h"
 #include "look/look.h"
 
 namespace sateen {
@@ -22,6 +23,7 @@ struct Fabric {
   TalkTangents talk;
   float warp_angle = 0;    ///< [radians]
   float gap = 0;           ///< share of the cloth's area that no thread covers
+  Weave weave;             ///< empty: its threads never show one by one
   std::string name;
 };
 

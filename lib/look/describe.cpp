@@ -11,11 +11,7 @@ namespace sateen {
 
 namespace {
 
-struct Family {
-  const char* name;
-  ThreadFamily Look::*member;
-};
-constexpr Family families[] = {{"warp", &Look::warp}, {"weft", &Look::weft}};
+constexpr const char* groups[] = {"warp", "weft", "weave"};
 
 std::string joined(const std::vector<std::string>& lines, const std::string& indent) {
   std::string text;
@@ -43,6 +39,9 @@ std::string type_schema(const Field& field) {
       return "\"type\": \"string\"";
     case FieldKind::name:
       return "\"type\": \"string\", \"minLength\": 1";
+    case FieldKind::draft:
+      return "\"anyOf\": [{\"type\": \"string\"}, {\"type\": \"array\", \"minItems\": 1, \"items\": {\"type\": "
+             "\"string\", \"pattern\": \"^[xX.10]+$\"}}]";
     case FieldKind::number:
       return fmt::format("\"type\": \"number\"{}", bounds(field));
     case FieldKind::numbers:
@@ -74,15 +73,20 @@ std::string write_look(const Look& look) {
   std::vector<std::string> top;
   for (const Field& field : fields()) {
     const std::string value = field_text(look, field);
-    if (!field.family && !value.empty() && value != "\"\"")
+    if (field.group.empty() && !value.empty() && value != "\"\"")
       top.push_back(fmt::format("\"{}\": {}", field.key, value));
   }
-  for (const Family& family : families) {
+  for (const std::string group : groups) {
     std::vector<std::string> own;
-    for (const Field& field : fields())
-      if (const std::string value = field_text(look, field); field.family == family.member && !value.empty())
-        own.push_back(fmt::format("\"{}\": {}", field.key, value));
-    top.push_back(fmt::format("\"{}\": {{\n{}  }}", family.name, joined(own, "    ")));
+    bool initial = true;
+    for (const Field& field : fields()) {
+      if (field.group != group) continue;
+      const std::string value = field_text(look, field);
+      if (!value.empty()) own.push_back(fmt::format("\"{}\": {}", field.key, value));
+      initial = initial && value == field_text(Look(), field);
+    }
+    if (group == "weave" && initial) continue;
+    top.push_back(fmt::format("\"{}\": {{\n{}  }}", group, joined(own, "    ")));
   }
   return fmt::format("{{\n{}}}\n", joined(top, "  "));
 }
@@ -116,13 +120,19 @@ std::string look_schema() {
       "\"$schema\": {\"description\": \"Where this schema is, for editors\", \"type\": \"string\"}",
       "\"inherits\": {\"description\": \"Name or path of the look whose values this one starts from\", "
       "\"type\": \"string\", \"minLength\": 1}"};
-  std::vector<std::string> family;
+  std::vector<std::string> family, weave;
   for (const Field& field : fields()) {
-    if (!field.family) top.push_back(property(field));
-    if (field.family == &Look::warp) family.push_back(property(field));
+    if (field.group.empty()) top.push_back(property(field));
+    if (field.group == "warp") family.push_back(property(field));
+    if (field.group == "weave") weave.push_back(property(field));
   }
-  for (const Family& each : families)
-    top.push_back(fmt::format("\"{}\": {{\"$ref\": \"#/$defs/family\"}}", each.name));
+  for (const char* each : {"warp", "weft"})
+    top.push_back(fmt::format("\"{}\": {{\"$ref\": \"#/$defs/family\"}}", each));
+  top.push_back(
+      fmt::format("\"weave\": {{\n      \"description\": \"How the threads cross, for cloth seen from near\",\n"
+                  "      \"type\": \"object\",\n      \"additionalProperties\": false,\n"
+                  "      \"properties\": {{\n{}      }}\n    }}",
+                  joined(weave, "        ")));
   return fmt::format(
       "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"A look: one cloth\",\n"
       "  \"type\": \"object\",\n  \"additionalProperties\": false,\n  \"properties\": {{\n{}  }},\n"

@@ -11,6 +11,7 @@
 #include "look/field_values.h"
 #include "look/json.h"
 #include "look/overrides.h"
+#include "look/wif.h"
 
 namespace sateen {
 
@@ -121,9 +122,9 @@ class LayerReader {
 
   void read_top_level(const JsonValue& item) {
     if (item.key == "$schema" || item.key == "inherits") return;
-    if (item.key == "warp" || item.key == "weft") return read_family(item);
+    if (item.key == "warp" || item.key == "weft" || item.key == "weave") return read_group(item);
     const Field* field = find_field(item.key);
-    if (!field || field->family)
+    if (!field || !field->group.empty())
       return complain(item.key_place, "unknown key " + shown_name(item.key), key_help(item.key, {}));
     if (field->is_shorthand())
       shorthands_.push_back({field, &item});
@@ -131,7 +132,7 @@ class LayerReader {
       read_field(*field, item);
   }
 
-  void read_family(const JsonValue& family) {
+  void read_group(const JsonValue& family) {
     if (family.kind != JsonValue::Kind::object)
       return complain(family.place, fmt::format("{} holds no fields, expected an object {{ ... }}", family.key), {});
     for (const JsonValue& item : family.items) {
@@ -156,6 +157,15 @@ class LayerReader {
     given_.push_back({field.path, item.place});
     if (!set_field(layer_.look, field, item, field.key, report)) return;
     if (field.kind == FieldKind::look_name) settle_look_name(field, item);
+    if (field.kind == FieldKind::draft) try {
+        settle_draft(layer_.look.weave.draft, document_.file);
+      } catch (const InputError& error) {
+        for (const Diagnostic& fault : error.diagnostics)
+          if (fault.line > 0)
+            parent_complaints_.push_back(fault);
+          else
+            complain(item.place, fault.message, fault.help);
+      }
     set_origin(field.path, item.place);
   }
 
