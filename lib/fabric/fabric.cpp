@@ -132,6 +132,15 @@ ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi) {
   return scatter<float>(view.fabric->threads, view.threads, wi.x, wi.y, wi.z);
 }
 
+ThreadSums<float> evaluate_parts(const FabricView& view, const YarnPlace& yarn, const Vec3& wi) {
+  ThreadSums<float> parts = evaluate_parts(view, wi);
+  if (yarn.near > 0) {
+    const float* wo = view.threads.wo;
+    add_yarn(view.fabric->weave, view.fabric->threads, yarn, Vec3(wo[0], wo[1], wo[2]), wi, parts);
+  }
+  return parts;
+}
+
 Color combine_parts(const Fabric& fabric, const ThreadSums<float>& s) {
   return Color(s.surface[0] + s.surface[1]) + fabric.A[0] * s.volume[0] + fabric.A[1] * s.volume[1];
 }
@@ -150,6 +159,10 @@ float pdf(const SamplerView& view, const Vec3& wi) {
 }
 
 BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi) { return {evaluate(view, wi), pdf(view.sampler, wi)}; }
+
+BsdfValue evaluate_with_pdf(const FabricView& view, const YarnPlace& yarn, const Vec3& wi) {
+  return {combine_parts(*view.fabric, evaluate_parts(view, yarn, wi)), pdf(view.sampler, wi)};
+}
 
 std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u) {
   switch (view.sampler) {

@@ -70,9 +70,12 @@ void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, F
 
 Color evaluate(const FabricView& view, const Vec3& wi);
 ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi);
+/// With the yarn at a place that is seen from near.
+ThreadSums<float> evaluate_parts(const FabricView& view, const YarnPlace& yarn, const Vec3& wi);
 Color combine_parts(const Fabric& fabric, const ThreadSums<float>& parts);
 float pdf(const SamplerView& view, const Vec3& wi);
 BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi);
+BsdfValue evaluate_with_pdf(const FabricView& view, const YarnPlace& yarn, const Vec3& wi);
 
 /// Numbers that `sample` wants, all in [0, 1).
 struct FabricRandom {

@@ -17,6 +17,9 @@ namespace {
 constexpr double irregular_length = 0.006, slub_length = 0.018;
 // Edges that stray by half a spacing would cross their neighbours'.
 constexpr double most_stray = 0.49;
+// Light that is missing at a yarn's edge, where its neighbour stands in the way, on a float's flanks and at its ends,
+// and at the edge of a strand of fibres.
+constexpr double flank_dark = 0.5, end_dark = 1, strand_dark = 0.8;
 
 double share_of(std::uint64_t hash) {
   return double(hash >> 11) * 0x1p-53;
@@ -90,10 +93,10 @@ bool warp_on_top(const Weave& w, long long end, long long pick) {
   return w.warp_up[size_t(wrapped(pick, w.picks)) * size_t(w.ends) + size_t(wrapped(end, w.ends))] != 0;
 }
 
-/// Tilt at `place` [spacings of the crossing family] along yarn `yarn` of the strips `own`. A float runs from the
-/// strip of one yarn that covers it to the next such strip; its beginning climbs, its end dives.
-double tilt(const Weave& weave, const Strips& own, const Strips& crossing, long long yarn, long long at, double place,
-            double across) {
+/// Share of a float that lies behind `place` [spacings of the crossing family] along yarn `yarn` of the strips `own`.
+/// A float runs from the strip of one yarn that covers it to the next such strip.
+double float_share(const Weave& weave, const Strips& own, const Strips& crossing, long long yarn, long long at,
+                   double place, double across) {
   const int repeat = own.warp ? weave.picks : weave.ends;
   const auto covered = [&](long long other) {
     return own.warp ? !warp_on_top(weave, yarn, other) : warp_on_top(weave, other, yarn);
@@ -114,9 +117,7 @@ double tilt(const Weave& weave, const Strips& own, const Strips& crossing, long 
         break;
       }
     }
-  const double share = to > from ? std::clamp((place - from) / (to - from), 0.0, 1.0) : 0.5;
-  const auto family = size_t(own.warp ? 0 : 1);
-  return tangent_offset(weave.offsets_deg[family], weave.lengths[family], std::min(1 - share, 1 - 0x1p-53));
+  return to > from ? std::clamp((place - from) / (to - from), 0.0, 1.0) : 0.5;
 }
 
 }  // namespace
@@ -167,6 +168,10 @@ Weave compile_weave(const Look& look) {
     // twisted ones turn their normals every way. Tuned by eye.
     weave.surface_width[size_t(family)] = std::clamp(0.25 + 1.5 * double(radians(f.gamma_s_deg)), 0.3, 1.2);
     weave.volume_width[size_t(family)] = std::clamp(0.9 + 1.0 * double(radians(f.gamma_v_deg)), 1.0, 2.0);
+    // And their fibres run round the yarn, at up to 25 degrees.
+    const double angle = std::clamp(2.5 * (double(f.gamma_s_deg) - 4), 0.0, 25.0) * std::numbers::pi / 180;
+    const double width = family == 0 ? widths.warp * weave.warp_spacing : widths.weft * weave.weft_spacing;
+    weave.twist[size_t(family)] = width > 0 ? strands_across * std::tan(angle) / width : 0;
   }
   return weave;
 }
@@ -180,24 +185,28 @@ YarnPlace yarn_at(const Weave& weave, double x, double y) {
   const bool in_weft = weft_strip.from < across_weft && across_weft < weft_strip.to;
   YarnPlace place;
   if (!in_warp && !in_weft) return place;
-  const auto middle = [](const Strips::Strip& s, double at) {
-    return float((2 * at - s.from - s.to) / (s.to - s.from));
-  };
-  if (in_warp && (!in_weft || warp_on_top(weave, end, pick))) {
-    place.family = 0;
-    place.across = middle(warp_strip, across_warp);
-    place.offset = float(tilt(weave, warp, weft, end, pick, across_weft, y));
-  } else {
-    place.family = 1;
-    place.across = middle(weft_strip, across_weft);
-    place.offset = float(tilt(weave, weft, warp, pick, end, across_warp, x));
-  }
+  const bool warp_shows = in_warp && (!in_weft || warp_on_top(weave, end, pick));
+  place.family = warp_shows ? 0 : 1;
+  const auto family = size_t(place.family);
+  const Strips::Strip& strip = warp_shows ? warp_strip : weft_strip;
+  const double at = warp_shows ? across_warp : across_weft, along = warp_shows ? x : y;
+  const double across = (2 * at - strip.from - strip.to) / (strip.to - strip.from);
+  const double share = warp_shows ? float_share(weave, warp, weft, end, pick, across_weft, y)
+                                  : float_share(weave, weft, warp, pick, end, across_warp, x);
+  // A float climbs at its beginning and dives at its end: its curve from the last offset to the first.
+  place.offset =
+      float(tangent_offset(weave.offsets_deg[family], weave.lengths[family], std::min(1 - share, 1 - 0x1p-53)));
+  place.across = float(across);
+  const double end_of_float = (2 * share - 1) * (2 * share - 1);
+  place.dark = float(flank_dark + (end_dark - flank_dark) * end_of_float * end_of_float);
+  const double strand =
+      strands_across * (across + 1) / 2 + weave.twist[family] * along + drawn(warp_shows ? end : pick, 0, 5 + family);
+  place.fibre = float(2 * (strand - std::floor(strand)) - 1);
   return place;
 }
 
-double profile(double across, double middle, double width) {
+double profile(double across, double middle, double width, double dark) {
   // (1 - dark s^2) / (1 + t^2) with s = middle + width t, over its mean for s from -1 to 1 in closed form.
-  constexpr double dark = 0.6;  // of the light at the yarn's very edge; its square falls off as the neighbour nears
   const double t0 = (-1 - middle) / width, t1 = (1 - middle) / width;
   const double arc = fast_atan2(t1, 1) - fast_atan2(t0, 1);
   const double log = std::log((1 + t1 * t1) / (1 + t0 * t0)) / 2;
@@ -219,10 +228,15 @@ void add_yarn(const Weave& weave, const Threads<float>& threads, const YarnPlace
   const int index = threads.first[family];
   if (index < 0) return;
   const TangentTerms terms = tangent_terms(threads, index, double(place.offset), wo, wi);
-  const double scale = double(place.near) / double(parts.reweight), across = double(place.across);
+  const double scale = double(place.near) / double(parts.reweight);
   const double middle = std::clamp(terms.half_azimuth, -1.0, 1.0);
-  parts.surface[family] += float(scale * terms.surface * profile(across, middle, weave.surface_width[family]));
-  parts.volume[family] += float(scale * terms.volume * profile(across, middle, weave.volume_width[family]));
+  const auto weight = [&](double width) {
+    const double yarn = profile(double(place.across), middle, width, double(place.dark));
+    if (place.strands == 0) return yarn;
+    return yarn + double(place.strands) * (profile(double(place.fibre), middle, width, strand_dark) - yarn);
+  };
+  parts.surface[family] += float(scale * terms.surface * weight(weave.surface_width[family]));
+  parts.volume[family] += float(scale * terms.volume * weight(weave.volume_width[family]));
 }
 
 float passing(float gap, const YarnPlace& place) {

@@ -27,12 +27,16 @@ struct Weave {
   std::array<std::vector<float>, 2> offsets_deg, lengths;
   /// Across a yarn: widths of the highlight and of the glow, in half widths of the yarn.
   std::array<double, 2> surface_width{}, volume_width{};
+  std::array<double, 2> twist{};  ///< strands that pass under one's finger along a metre of yarn: spun yarns turn
 
   bool empty() const { return ends == 0; }
 };
 
 /// The look's weave; empty where it has no draft. InputError when the draft cannot be read.
 Weave compile_weave(const Look& look);
+
+/// Strands of fibres that show side by side on a yarn; few enough to be seen and many enough to look like fibres.
+inline constexpr int strands_across = 7;
 
 /// Widths of strips with which warp and weft cover `warp` and `weft` of the cloth's area (their sum at most 1), where
 /// the warp is on top in the share `up` of all crossings: there is always exactly one such pair.
@@ -43,19 +47,22 @@ YarnWidths yarn_widths(double warp, double weft, double up);
 
 /// What lies on top at one place of the cloth, and how much the picture makes of it.
 struct YarnPlace {
-  float near = 0;    ///< share of this one yarn in the picture; what is left of 1 is the threads' mean
-  int family = -1;   ///< 0 warp, 1 weft, -1 nothing: a gap
-  float offset = 0;  ///< tilt of the thread there [radians]
-  float across = 0;  ///< place across the yarn, -1 to 1, growing with y (warp) or x (weft)
+  float near = 0;     ///< share of this one yarn in the picture; what is left of 1 is the threads' mean
+  int family = -1;    ///< 0 warp, 1 weft, -1 nothing: a gap
+  float offset = 0;   ///< tilt of the thread there [radians]
+  float across = 0;   ///< place across the yarn, -1 to 1, growing with y (warp) or x (weft)
+  float dark = 0;     ///< light that is missing at the yarn's very edge, 0 to 1: most where a float dives
+  float fibre = 0;    ///< place across the strand of fibres that lies there, -1 to 1
+  float strands = 0;  ///< share of the strands in the yarn's shading; 0 where they are too fine to be seen
 };
 
-/// The place at weave coordinates (x, y) [metres], `near` left 0. The weave must not be empty.
+/// The place at weave coordinates (x, y) [metres], `near` and `strands` left 0. The weave must not be empty.
 YarnPlace yarn_at(const Weave& weave, double x, double y);
 
-/// Mean-1 weight of a place across a yarn for light whose half vector has the sine `middle` of its azimuth about the
-/// thread: a bump of `width` where the yarn's own normal looks along it, and dark edges. For every middle in [-1, 1]
-/// its mean over `across` in [-1, 1] is 1.
-double profile(double across, double middle, double width);
+/// Mean-1 weight of a place across a yarn, or a strand of it, for light whose half vector has the sine `middle` of
+/// its azimuth about the thread: a bump of `width` where the yarn's own normal looks along it, and edges that lack
+/// the share `dark` of their light. For every middle in [-1, 1] its mean over `across` in [-1, 1] is 1.
+double profile(double across, double middle, double width, double dark);
 
 /// Blends the threads' mean `parts` at (wi, wo) with the yarn at `place`: F = (1 - near) F_far + near F_near, where
 /// F_near = (1/Q) f M P cos theta_i of that yarn's one tangent times its profile, and Q is the far model's full mean.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "film/filter.h"
+#include "scene/near_weave.h"
 
 namespace sateen {
 
@@ -61,7 +62,7 @@ BounceLight indirect_light(const Scene& scene, const LightSettings& settings, Cl
     prepare_view(*point.fabric, point.wo, sampler, scratch.vertex);
     const std::optional<Vec3> wi = sample(scratch.vertex.sampler, u);
     if (!wi) break;
-    const BsdfValue value = evaluate_with_pdf(scratch.vertex, *wi);
+    const BsdfValue value = evaluate_with_pdf(scratch.vertex, point.yarn, *wi);
     if (!(value.pdf > 0)) break;
     throughput *= value.f_cos / value.pdf;
     if (bounce > roulette_after) {
@@ -115,19 +116,20 @@ void see_backdrop(const Scene& scene, const Vec3& direction, float passed, Camer
 /// What is seen through the gaps of the first layer of sheer cloth; `follow` is the weight of its indirect light.
 void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, Ray ray, std::uint32_t seed,
                   const SampleId& id, float follow, PathScratch& scratch, CameraSample& out) {
-  float passed = point.fabric->gap;
+  float passed = passing(point.fabric->gap, point.yarn);
   for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
     ray.origin = offset_origin(point.surface, ray.direction);
     ++scratch.counts.camera;
     const std::optional<Hit> hit = scene.rays->closest_hit(ray);
     if (!hit) return see_backdrop(scene, ray.direction, passed, out);
     point = cloth_point(scene, *hit, ray.direction);
+    if (scene.near_weave_pixel > 0) place_yarn(scene, ray.direction, point);
     // Another layer gets numbers of its own.
     const LobeLight direct = direct_light(scene, point, settings, alone(seed, id, -layer), scratch);
     if (keep(direct, scratch.counts)) out.through_gaps += direct.total() * passed;
     if (follow > 0)
       out.through_gaps += indirect_light(scene, settings, point, seed, id, scratch).total() * (passed * follow);
-    passed *= point.fabric->gap;
+    passed *= passing(point.fabric->gap, point.yarn);
   }
 }
 
@@ -166,6 +168,10 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
     met.index[n] = all.index[k];
   }
   if (met.count == 0) return;
+  if (scene.near_weave_pixel > 0)
+    for (size_t n = 0; n < size_t(met.count); ++n)
+      if (const size_t k = sample_of[n]; may_show_yarns(scene, hits[k].t))
+        place_yarn(scene, rays[k].direction, points[n]);
   std::array<LobeLight, batch_size> direct;
   direct_light(scene, {points.data(), size_t(met.count)}, settings, met, scratch, direct.data());
   Batch1 choice{};  // 0 is always below the share

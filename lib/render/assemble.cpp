@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <future>
@@ -16,6 +17,7 @@
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
 #include "scene/environment_file.h"
+#include "scene/near_weave.h"
 
 namespace sateen {
 
@@ -97,6 +99,27 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   return cloth;
 }
 
+/// Whether the camera stands so near to some of the cloth that threads may show.
+bool shows_yarns(const Scene& scene) {
+  const std::vector<Vec3>& positions = scene.mesh->positions;
+  return std::any_of(positions.begin(), positions.end(), [&](const Vec3& p) {
+    const float depth = dot(p - scene.camera.position, scene.camera.forward);
+    return depth > 0 && may_show_yarns(scene, depth);
+  });
+}
+
+/// How large the cloth is and from how near its threads show.
+void settle_weave(const SceneSettings& settings, Scene& scene, SceneReport& report) {
+  if (scene.front.weave.empty() && (!scene.back || scene.back->weave.empty())) return;
+  const float known = settings.uv_metres > 0 ? settings.uv_metres : scene.mesh->metres_per_uv;
+  scene.metres_per_uv = known > 0 ? known : 1;
+  scene.near_weave_pixel = near_weave_pixel(scene);
+  if (!(known > 0) && shows_yarns(scene))
+    report.warnings.push_back(fmt::format(
+        "{}: nothing says how large the cloth is; its threads are counted as if one UV unit were a metre (--uv-metres)",
+        settings.mesh));
+}
+
 std::string hash_environment(const Environment& environment) {
   Hash hash;
   for (const Environment::Texel& texel : environment.texels) hash.add_bytes(&texel.radiance, sizeof texel.radiance);
@@ -149,6 +172,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
   scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
+  settle_weave(settings, scene, report);
   report.environment_hash = hash_environment(scene.environment);
   report.metered_ev = metered_exposure_ev(scene.environment);
   return scene;

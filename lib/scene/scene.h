@@ -30,6 +30,8 @@ struct Scene {
   Color backdrop_color{0, 0, 0};         ///< working space
   bool has_gaps = false;                 ///< some look lets light straight through
   bool self_shadowing = true;            ///< false: no part of the cloth keeps light from another
+  float metres_per_uv = 1;               ///< the cloth's own size, which threads per centimetre are counted on
+  float near_weave_pixel = 0;            ///< scene/near_weave.h; 0: threads never show one by one
 };
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
@@ -39,6 +41,7 @@ struct ClothPoint {
   Vec3 facing;            ///< geometric normal on the viewer's side
   const Fabric* fabric;   ///< of the side that is seen
   Vec3 wo;                ///< towards the viewer, cloth frame; wo.z > 0
+  YarnPlace yarn;         ///< what is on top here; its `near` is 0 but where a camera sees the cloth from near
 };
 ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction);
 

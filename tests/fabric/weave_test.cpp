@@ -68,14 +68,14 @@ TEST(Profile, HasTheMeanOneForEveryHalfVectorAndIsBrightestBesideIt) {
       constexpr int n = 20000;
       double sum = 0;
       for (int i = 0; i < n; ++i) {
-        const double w = profile(-1 + 2 * (i + 0.5) / n, middle, width);
+        const double w = profile(-1 + 2 * (i + 0.5) / n, middle, width, 0.5 + 0.5 * (m & 1));
         ASSERT_TRUE(w >= 0 && w < 12) << middle << " " << width;
         sum += w / n;
       }
       EXPECT_NEAR(sum, 1, 2e-6) << middle << " " << width;
     }
-  EXPECT_GT(profile(0, 0, 0.3), 3 * profile(0.9, 0, 0.3));
-  EXPECT_GT(profile(0.5, 0.6, 0.3), profile(-0.5, 0.6, 0.3));
+  EXPECT_GT(profile(0, 0, 0.3, 0.5), 3 * profile(0.9, 0, 0.3, 0.5));
+  EXPECT_GT(profile(0.5, 0.6, 0.3, 0.5), profile(-0.5, 0.6, 0.3, 0.5));
 }
 
 TEST(TangentTerms, AreTheKernelsOfAClothOfOneTangent) {
@@ -121,6 +121,7 @@ ThreadSums<double> near_mean(const Fabric& fabric, const FabricView& view, const
     const double u = std::fmod(0.5 + i * 0.7548776662466927, 1.0), v = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
     YarnPlace place = yarn_at(weave, u * weave.picks * weave.weft_spacing, v * weave.ends * weave.warp_spacing);
     place.near = 1;
+    place.strands = 0.4f;
     ThreadSums<float> parts = far;
     add_yarn(weave, fabric.threads, place, wo, wi, parts);
     for (size_t f = 0; f < 2; ++f) {
@@ -223,9 +224,9 @@ TEST(NearModel, OffLeavesTheBitsOfTheFarModel) {
 
 TEST(Gaps, PassEverythingOrNothingFromNearAndTheirShareFromFar) {
   EXPECT_EQ(passing(0.2f, {}), 0.2f);
-  EXPECT_EQ(passing(0.2f, {1, -1, 0, 0}), 1.0f);
-  EXPECT_EQ(passing(0.2f, {1, 0, 0, 0}), 0.0f);
-  EXPECT_NEAR(passing(0.2f, {0.5f, -1, 0, 0}), 0.6f, 1e-6);
+  EXPECT_EQ(passing(0.2f, {1, -1, 0, 0, 0, 0, 0}), 1.0f);
+  EXPECT_EQ(passing(0.2f, {1, 0, 0, 0, 0, 0, 0}), 0.0f);
+  EXPECT_NEAR(passing(0.2f, {0.5f, -1, 0, 0, 0, 0, 0}), 0.6f, 1e-6);
 }
 
 }  // namespace
