@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <future>
@@ -99,25 +98,17 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   return cloth;
 }
 
-/// Whether the camera stands so near to some of the cloth that threads may show.
-bool shows_yarns(const Scene& scene) {
-  const std::vector<Vec3>& positions = scene.mesh->positions;
-  return std::any_of(positions.begin(), positions.end(), [&](const Vec3& p) {
-    const float depth = dot(p - scene.camera.position, scene.camera.forward);
-    return depth > 0 && may_show_yarns(scene, depth);
-  });
-}
-
 /// How large the cloth is and from how near its threads show.
 void settle_weave(const SceneSettings& settings, Scene& scene, SceneReport& report) {
   if (scene.front.weave.empty() && (!scene.back || scene.back->weave.empty())) return;
   const float known = settings.uv_metres > 0 ? settings.uv_metres : scene.mesh->metres_per_uv;
   scene.metres_per_uv = known > 0 ? known : 1;
   scene.near_weave_pixel = near_weave_pixel(scene);
-  if (!(known > 0) && shows_yarns(scene))
-    report.warnings.push_back(fmt::format(
-        "{}: nothing says how large the cloth is; its threads are counted as if one UV unit were a metre (--uv-metres)",
-        settings.mesh));
+  if (!(known > 0) && may_show_yarns(scene))
+    report.warnings.push_back(
+        fmt::format("{}: nothing says how large the cloth is; its threads are counted as if one UV unit were a metre "
+                    "(--uv-metres)",
+                    settings.mesh));
 }
 
 std::string hash_environment(const Environment& environment) {

@@ -49,6 +49,12 @@ bool may_show_yarns(const Scene& scene, float depth) {
   return std::abs(depth) * 2 * step < scene.near_weave_pixel;
 }
 
+bool may_show_yarns(const Scene& scene) {
+  const Vec3 middle = (scene.mesh->bounds_min + scene.mesh->bounds_max) * 0.5f;
+  const float nearest = length(scene.camera.position - middle) - length(scene.mesh->bounds_max - middle);
+  return scene.near_weave_pixel > 0 && may_show_yarns(scene, std::max(nearest, 0.0f));
+}
+
 void place_yarn(const Scene& scene, const Vec3& direction, ClothPoint& point) {
   const Weave& weave = point.fabric->weave;
   if (weave.empty()) return;

@@ -12,6 +12,9 @@ float near_weave_pixel(const Scene& scene);
 /// Whether a point at this depth (along the camera's axis) may be seen from so near that its threads show.
 bool may_show_yarns(const Scene& scene, float depth);
 
+/// Whether the camera stands so near to the mesh's bounding sphere that threads may show somewhere in the picture.
+bool may_show_yarns(const Scene& scene);
+
 /// Finds the yarn of a point that a camera ray of `direction` met, and how much of it shows: nothing where a yarn
 /// fills less than a pixel, everything where it fills three, by the direction in which it looks narrowest.
 void place_yarn(const Scene& scene, const Vec3& direction, ClothPoint& point);
