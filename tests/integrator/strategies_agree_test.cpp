@@ -181,7 +181,7 @@ TEST(Strategies, ConvergeToTheSamePictureOfThreadsSeenFromNear) {
   expect_agreement({{"linen_plain", "swatch", 1, "constant", Scale::block, 300},
                     {"shot_taffeta", "swatch", 1, "noise", Scale::block, 600},
                     {"champagne_silk_satin", "swatch", 1, "studio_softboxes", Scale::picture, 600}},
-                   1, 32, Scale::block);
+                   1, 10, Scale::block);
 }
 
 TEST(Strategies, ConvergeToTheSamePictureWithLightThatMeetsClothAgain) {
