@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe|cost|effects]...
+# Makes the pictures of the README anew:   docs/make_pictures.sh [hero|looks|lights|meshes|garments|turntable|lobe|cost|effects|weave]...
 # A quarter of an hour on one core. SATEEN: the program (build/bin/sateen). GARMENTS and MAPS: folders with the
 # garments of MakeHuman and HDR maps by Greg Zaal, both CC0; without them those pictures are left as they are.
 set -euo pipefail
@@ -101,5 +101,25 @@ effects() {
   picture effect_backdrop_on "${forest[@]}" --backdrop blurred:30 "${wide[@]}"
 }
 
-[ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe cost effects
+# The same frame with the threads' mean and with the threads themselves, and a camera that comes nearer.
+weave() {
+  local near=(-m swatch -l shot_taffeta --zoom 70 -r 640 360 -s 64 --adaptive)
+  picture effect_weave_off "${near[@]}" --effects auto,-weave
+  picture effect_weave_on "${near[@]}"
+  if ! command -v montage >/dev/null; then
+    echo "no montage (ImageMagick): weave_zoom is left as it is" >&2
+    return
+  fi
+  local strip zoom
+  strip=$(mktemp -d)
+  for zoom in 1 6 24 80 400; do
+    "$sateen" render -q --progress none -m swatch -l champagne_silk_satin --elevation 27 --fov 6 --zoom "$zoom" -r 256 192 \
+      -s 48 --adaptive -o "$strip/$(printf %03d "$zoom").png"
+  done
+  montage "$strip"/*.png -tile 5x1 -geometry +2+0 "$out/weave_zoom.jpg"
+  rm -r "$strip"
+  echo "$out/weave_zoom.jpg"
+}
+
+[ $# -gt 0 ] || set -- hero looks lights meshes garments turntable lobe cost effects weave
 for part in "$@"; do "$part"; done

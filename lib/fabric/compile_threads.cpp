@@ -110,6 +110,7 @@ Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp,
     throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible", threads.start.size(),
                                  most_tangents - padding),
                      "widen gamma_s_deg or gamma_v_deg, or give the curve fewer sloping pieces");
+  for (int k = int(threads.start.size()) - 1; k >= 0; --k) threads.first[threads.along_x[size_t(k)] > 0 ? 0 : 1] = k;
   pad(threads);
   for (int family = 0; family < 2; ++family) {
     // |psi| stays a quarter turn away from every sloping offset: tan(pi/2 - largest offset), infinite without slopes.

@@ -92,6 +92,7 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
   fabric.gap = fabric.threads.gap;
   fabric.warp_angle = radians(look.warp_angle_deg);
   fabric.talk = compile_talk(look, warp, weft);
+  fabric.weave = compile_weave(look);
 
   const bool solve = look.warp.color || look.weft.color;
   const Albedo normal = solve ? albedo(fabric.threads, Vec3(0, 0, 1)) : Albedo();
@@ -148,9 +149,21 @@ ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi) {
   return scatter<float>(*view.own_threads, view.threads, wi.x, wi.y, wi.z);
 }
 
-Color evaluate(const FabricView& view, const Vec3& wi) {
-  const ThreadSums<float> s = evaluate_parts(view, wi);
+ThreadSums<float> evaluate_parts(const FabricView& view, const YarnPlace& yarn, const Vec3& wi) {
+  ThreadSums<float> parts = evaluate_parts(view, wi);
+  if (yarn.near > 0) {
+    const float* wo = view.threads.wo;
+    add_yarn(view.fabric->weave, *view.own_threads, yarn, Vec3(wo[0], wo[1], wo[2]), wi, parts);
+  }
+  return parts;
+}
+
+Color combine_parts(const FabricView& view, const ThreadSums<float>& s) {
   return Color(s.surface[0] + s.surface[1]) + view.A[0] * s.volume[0] + view.A[1] * s.volume[1];
+}
+
+Color evaluate(const FabricView& view, const Vec3& wi) {
+  return combine_parts(view, evaluate_parts(view, wi));
 }
 
 float pdf(const SamplerView& view, const Vec3& wi) {

@@ -9,6 +9,7 @@
 #include "fabric/point_values.h"
 #include "fabric/talk_sampler.h"
 #include "fabric/threads.h"
+#include "fabric/weave.h"
 #include "look/look.h"
 
 namespace sateen {
@@ -25,6 +26,7 @@ struct Fabric {
   float warp_angle = 0;                           ///< [radians]
   float gap = 0;                                  ///< share of the cloth's area that no thread covers
   std::shared_ptr<const VaryingThreads> varying;  ///< where numbers of the threads differ from point to point
+  Weave weave;                                    ///< empty: its threads never show one by one
   std::string name;
 };
 
@@ -80,6 +82,10 @@ void prepare_view(const Fabric& fabric, const Vec3& wo, FabricSampler sampler, F
 
 Color evaluate(const FabricView& view, const Vec3& wi);
 ThreadSums<float> evaluate_parts(const FabricView& view, const Vec3& wi);
+/// With the yarn at a place that is seen from near.
+ThreadSums<float> evaluate_parts(const FabricView& view, const YarnPlace& yarn, const Vec3& wi);
+/// The colours of the view on its parts.
+Color combine_parts(const FabricView& view, const ThreadSums<float>& parts);
 float pdf(const SamplerView& view, const Vec3& wi);
 BsdfValue evaluate_with_pdf(const FabricView& view, const Vec3& wi);
 

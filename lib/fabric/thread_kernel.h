@@ -369,7 +369,8 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
   const Real q = total(reweight);
   // Every P is 0: F is 0 (cloth-model.md section 3). So too for a denormal, whose inverse is infinite.
   if (!(q >= std::numeric_limits<Real>::min())) return out;
-  const Real inverse_q = 1 / (q + t.gap * view_of_wo.wo[2]);
+  out.reweight = q + t.gap * view_of_wo.wo[2];
+  const Real inverse_q = 1 / out.reweight;
   out.surface = {total(surface_warp) * inverse_q, total(surface_weft) * inverse_q};
   out.volume = {total(volume_warp) * inverse_q, total(volume_weft) * inverse_q};
   return out;

@@ -12,6 +12,7 @@ namespace sateen {
 template <class Real>
 struct ThreadSums {
   std::array<Real, 2> surface{}, volume{};  ///< warp, weft
+  Real reweight = 0;                        ///< Q, by which both are divided; 0 where every P is 0
 };
 
 /// All tangents of both families as arrays, compiled for one number type: float arrays run in PairLanes or WideLanes,
@@ -31,6 +32,7 @@ struct Threads {
   Real slope_from[2], slope_to[2];  ///< extent of the sloping segments of warp and weft; from > to where none
   Real clip_free[2];                ///< all of them face wi while |wi.d| <= clip_free wi.z
   int count = 0;                    ///< padded to a multiple of 16; the padding has no weight
+  int first[2] = {-1, -1};          ///< some tangent of warp and of weft, for its constants; -1: the family has none
 
   /// The first blocks of 8 tangents are panels of Gauss-Legendre nodes, `panels[0]` of the warp, then `panels[1]` of
   /// the weft: place of each panel's ends in its segment, and the integrals of sign_change().

@@ -58,8 +58,8 @@ void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, std::
 }
 
 /// F times `light` at a direction, split into lobes.
-void add_lobes(const FabricView& view, const Vec3& wi, const Color& light, LobeLight& sum) {
-  const ThreadSums<float> parts = evaluate_parts(view, wi);
+void add_lobes(const FabricView& view, const ClothPoint& point, const Vec3& wi, const Color& light, LobeLight& sum) {
+  const ThreadSums<float> parts = evaluate_parts(view, point.yarn, wi);
   for (int family = 0; family < 2; ++family) {
     sum.surface[family] += light * parts.surface[family];
     sum.volume[family] += light * view.A[size_t(family)] * parts.volume[family];
@@ -94,7 +94,7 @@ void direct_light(const Scene& scene, std::span<const ClothPoint> points, const 
       if (seen[k][j] == 0) continue;
       if (!prepared) prepare_threads(*points[k].fabric, points[k].wo, scratch.view, points[k].own_values());
       prepared = true;
-      add_lobes(scratch.view, rays[k].rays[j].wi, rays[k].rays[j].light * seen[k][j], light[k]);
+      add_lobes(scratch.view, points[k], rays[k].rays[j].wi, rays[k].rays[j].light * seen[k][j], light[k]);
     }
   }
 }

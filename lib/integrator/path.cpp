@@ -110,7 +110,7 @@ void look_through(const Scene& scene, const LightSettings& settings, ClothPoint 
   const SampleId* const ids[] = {&id};
   Batch1 weight{};
   weight[0] = follow;
-  float passed = point.gap;
+  float passed = passing(point.gap, point.yarn);
   for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
     Ray ray = eye;
     ray.origin = offset_origin(point.surface, ray.direction);
@@ -135,7 +135,7 @@ void look_through(const Scene& scene, const LightSettings& settings, ClothPoint 
     if (keep(direct.total(), scratch.counts)) out.through_gaps += direct.total() * passed;
     indirect_light<ClothPoint>(scene, settings, seed, {&point, 1}, weight, ids, scratch, &indirect);
     out.through_gaps += indirect.total() * passed;
-    passed *= point.gap;
+    passed *= passing(point.gap, point.yarn);
   }
 }
 
@@ -186,7 +186,7 @@ void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_
     sample.alpha = 1;
     if (keep(direct[n].total(), scratch.counts)) sample.direct = direct[n];
     sample.indirect = indirect[n];
-    if (point.gap > 0)
+    if (scene.has_gaps && passing(point.gap, point.yarn) > 0)
       look_through(scene, settings, point, traced[k], seed, samples[k], weights[n], scratch, sample);
   }
 }

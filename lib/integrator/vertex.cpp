@@ -1,6 +1,6 @@
 #include "integrator/vertex.h"
 
-#include "scene/footprint.h"
+#include "scene/near_weave.h"
 
 namespace sateen {
 
@@ -17,11 +17,13 @@ Camera turned_camera(const Camera& camera, const YTurn& object) {
 
 ClothPoint seen_cloth(const Scene& scene, const Hit& hit, const Ray& eye, const YTurn& object, double& choice) {
   ClothPoint point = cloth_point(scene, hit, eye.direction);
-  if (scene.has_maps) {
+  const bool near = may_show_yarns(scene, hit.t);
+  if (scene.has_maps || near) {
     const Footprint pixel = scene.shutter
                                 ? camera_footprint(turned_camera(scene.camera, object), eye, point.surface)
                                 : camera_footprint(scene.camera, eye, point.surface);
-    apply_maps(scene, eye.direction, pixel, choice, point);
+    if (scene.has_maps) apply_maps(scene, eye.direction, pixel, choice, point);
+    if (near) place_yarn(scene, pixel, point);
   }
   if (scene.shutter) turn_point(point, object);
   return point;

@@ -11,7 +11,7 @@ namespace sateen {
 
 namespace {
 
-constexpr const char* groups[] = {"pattern", "warp", "weft"};
+constexpr const char* groups[] = {"pattern", "warp", "weft", "weave"};
 
 // Looks without a pattern are written, and hashed, without a word of one.
 bool unused_pattern(const Field& field, const std::string& value) {
@@ -44,6 +44,9 @@ std::string type_schema(const Field& field) {
       return "\"type\": \"string\"";
     case FieldKind::name:
       return "\"type\": \"string\", \"minLength\": 1";
+    case FieldKind::draft:
+      return "\"anyOf\": [{\"type\": \"string\"}, {\"type\": \"array\", \"minItems\": 1, \"items\": {\"type\": "
+             "\"string\", \"pattern\": \"^[xX.10]+$\"}}]";
     case FieldKind::number:
       return fmt::format("\"type\": \"number\"{}", bounds(field));
     case FieldKind::numbers:
@@ -83,11 +86,15 @@ std::string write_look(const Look& look) {
   }
   for (const std::string group : groups) {
     std::vector<std::string> own;
-    for (const Field& field : fields())
-      if (const std::string value = field_text(look, field);
-          field.group == group && !value.empty() && !unused_pattern(field, value))
-        own.push_back(fmt::format("\"{}\": {}", field.key, value));
-    if (!own.empty()) top.push_back(fmt::format("\"{}\": {{\n{}  }}", group, joined(own, "    ")));
+    bool initial = true;
+    for (const Field& field : fields()) {
+      if (field.group != group) continue;
+      const std::string value = field_text(look, field);
+      if (!value.empty() && !unused_pattern(field, value)) own.push_back(fmt::format("\"{}\": {}", field.key, value));
+      initial = initial && value == field_text(Look(), field);
+    }
+    if (own.empty() || (group == "weave" && initial)) continue;
+    top.push_back(fmt::format("\"{}\": {{\n{}  }}", group, joined(own, "    ")));
   }
   return fmt::format("{{\n{}}}\n", joined(top, "  "));
 }
@@ -140,15 +147,21 @@ std::string look_schema() {
       "\"$schema\": {\"description\": \"Where this schema is, for editors\", \"type\": \"string\"}",
       "\"inherits\": {\"description\": \"Name or path of the look whose values this one starts from\", "
       "\"type\": \"string\", \"minLength\": 1}"};
-  std::vector<std::string> family, pattern;
+  std::vector<std::string> family, pattern, weave;
   for (const Field& field : fields()) {
     if (field.group.empty()) top.push_back(property(field));
     if (field.group == "pattern") pattern.push_back(property(field));
     if (field.group == "warp") family.push_back(property(field));
+    if (field.group == "weave") weave.push_back(property(field));
   }
-  for (const std::string group : groups)
+  for (const std::string group : {"pattern", "warp", "weft"})
     top.push_back(
         fmt::format("\"{}\": {{\"$ref\": \"#/$defs/{}\"}}", group, group == "pattern" ? "pattern" : "family"));
+  top.push_back(
+      fmt::format("\"weave\": {{\n      \"description\": \"How the threads cross, for cloth seen from near\",\n"
+                  "      \"type\": \"object\",\n      \"additionalProperties\": false,\n"
+                  "      \"properties\": {{\n{}      }}\n    }}",
+                  joined(weave, "        ")));
   return fmt::format(
       "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": \"A look: one cloth\",\n"
       "  \"type\": \"object\",\n  \"additionalProperties\": false,\n  \"properties\": {{\n{}  }},\n"

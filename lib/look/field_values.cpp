@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/nearest_name.h"
+#include "look/draft.h"
 #include "look/read_texture.h"
 
 namespace sateen {
@@ -157,6 +158,31 @@ bool read_text(std::string& to, const Field& field, const JsonValue& value, std:
   return true;
 }
 
+bool read_draft(std::vector<std::string>& to, const JsonValue& value, std::string_view name, const Report& report) {
+  std::vector<std::string> read;
+  if (value.kind == Kind::text)
+    read.push_back(value.text);
+  else if (value.kind == Kind::list)
+    for (const JsonValue& item : value.items)
+      if (item.kind == Kind::text) read.push_back(item.text);
+  if (read.empty() || (value.kind == Kind::list && read.size() != value.items.size())) {
+    report(value.place,
+           fmt::format("{} is {}, expected a text such as \"satin 5/2\", or a list of rows of x and .", name,
+                       found(value)),
+           {});
+    return false;
+  }
+  if (read.size() == 1 && read[0].empty()) read.clear();  // no draft
+  try {
+    if (!read.empty() && !is_draft_file(read)) parse_draft(read);
+  } catch (const InputError& error) {
+    report(value.place, error.diagnostics.front().message, error.diagnostics.front().help);
+    return false;
+  }
+  to = std::move(read);
+  return true;
+}
+
 struct MemberText {
   std::string operator()(const std::string& text) const { return json_quote(text); }
   std::string operator()(float number) const { return fmt::format("{}", number + 0.0f); }
@@ -175,6 +201,12 @@ struct MemberText {
       if (i) text += ", ";
       text += (*this)(numbers[i]);
     }
+    return text + "]";
+  }
+  std::string operator()(const std::vector<std::string>& texts) const {
+    if (texts.size() < 2) return json_quote(texts.empty() ? "" : texts[0]);
+    std::string text = "[";
+    for (size_t i = 0; i < texts.size(); ++i) text += (i ? ", " : "") + json_quote(texts[i]);
     return text + "]";
   }
 };
@@ -235,6 +267,8 @@ bool set_field(Look& look, const Field& field, const JsonValue& value, std::stri
       good = read_number(member, field, value, name, report);
     } else if constexpr (std::is_same_v<Member, std::vector<float>>) {
       good = read_numbers(member, field, value, name, report);
+    } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
+      good = read_draft(member, value, name, report);
     } else if constexpr (std::is_same_v<Member, ColorValue>) {
       good = read_color(member, field, value, name, report);
       if (good) (look.*field.family).color.reset();

@@ -23,7 +23,8 @@ Field remark(std::string key, std::string Look::*member, bool inherited, std::st
 
 template <class Member>
 Field ranged(std::string key, Member member, double low, double high, std::string unit, std::string help) {
-  constexpr bool is_number = std::is_same_v<Member, float Look::*> || std::is_same_v<Member, float ThreadFamily::*>;
+  constexpr bool is_number = std::is_same_v<Member, float Look::*> || std::is_same_v<Member, float ThreadFamily::*> ||
+                             std::is_same_v<Member, float WeaveSettings::*>;
   constexpr bool is_list = std::is_same_v<Member, std::vector<float> ThreadFamily::*>;
   Field field;
   field.key = std::move(key);
@@ -90,6 +91,24 @@ std::vector<Field> family_fields() {
   };
 }
 
+std::vector<Field> weave_fields() {
+  Field draft;
+  draft.key = "draft";
+  draft.kind = FieldKind::draft;
+  draft.member = &WeaveSettings::draft;
+  draft.help =
+      "How the threads cross, seen from near: plain, twill 3/1, satin 5/2, sateen 5/2, rows of x (warp on top) and ., "
+      "or a .wif file";
+  return {
+      draft,
+      ranged("warp_per_cm", &WeaveSettings::warp_per_cm, 0.5, 500, "", "Warp threads in a centimetre"),
+      ranged("weft_per_cm", &WeaveSettings::weft_per_cm, 0.5, 500, "", "Weft threads in a centimetre"),
+      ranged("irregularity", &WeaveSettings::irregularity, 0, 0.4, "",
+             "How far the edges of threads stray, as a share of their spacing"),
+      ranged("slubs", &WeaveSettings::slubs, 0, 1, "", "How thick the thick places of the weft are"),
+  };
+}
+
 std::vector<Field> all_fields() {
   std::vector<Field> all = look_fields();
   for (Field& field : all) field.path = field.key;
@@ -104,6 +123,7 @@ std::vector<Field> all_fields() {
   add_group("pattern", nullptr, pattern_fields());
   add_group("warp", &Look::warp, family_fields());
   add_group("weft", &Look::weft, family_fields());
+  add_group("weave", nullptr, weave_fields());
   return all;
 }
 

@@ -17,7 +17,8 @@ enum class FieldKind {
   look_name,  ///< the name or path of another look, or an empty text
   number,     ///< one number
   color,      ///< [r, g, b] or {"value": [r, g, b], "space": "..."}
-  numbers     ///< a list of numbers
+  numbers,    ///< a list of numbers
+  draft       ///< a text or a list of texts that parse_draft or a WIF file explains; an empty text for none
 };
 
 /// Stands for the same member of both families at once; a field with it sets values and never holds one.
@@ -27,15 +28,16 @@ struct OfBothFamilies {
 
 using FieldMember =
     std::variant<std::string Look::*, float Look::*, float ThreadFamily::*, ColorValue ThreadFamily::*,
-                 std::optional<ColorValue> ThreadFamily::*, std::vector<float> ThreadFamily::*, OfBothFamilies>;
+                 std::optional<ColorValue> ThreadFamily::*, std::vector<float> ThreadFamily::*, float WeaveSettings::*,
+                 std::vector<std::string> WeaveSettings::*, OfBothFamilies>;
 
 /// One parameter of a look. Reading, writing, ranges, help, schema, hash, diff and --set all go through these.
 struct Field {
   std::string path;  ///< "warp.gamma_s_deg", "masking_width_deg"
   std::string key;   ///< the last part of the path
+  std::string group;  ///< the part before it: "pattern", "warp", "weft", "weave"; empty at the top level
   FieldKind kind = FieldKind::text;
-  std::string group;                     ///< "warp", "weft", "pattern"; empty at the top level
-  ThreadFamily Look::*family = nullptr;  ///< of the warp's and the weft's
+  ThreadFamily Look::*family = nullptr;  ///< null but for the fields of a family
   FieldMember member;
   double low =
       -std::numeric_limits<double>::infinity();  ///< bounds of a number, of each number of a list, of a channel
@@ -52,7 +54,8 @@ struct Field {
 /// Numbers in a list of offsets, at least and at most: a tangent curve is short.
 inline constexpr size_t fewest_offsets = 2, most_offsets = 64;
 
-/// All fields in the order in which they are written: the look's own, the pattern's, the warp's, the weft's.
+/// All fields in the order in which they are written: the look's own, the pattern's, the warp's, the weft's, the
+/// weave's.
 const std::vector<Field>& fields();
 
 /// The field of that path, or nullptr.
@@ -66,6 +69,9 @@ void visit_member(LookOrConst& look, const Field& field, Use&& use) {
         if constexpr (std::is_same_v<decltype(member), std::string Look::*> ||
                       std::is_same_v<decltype(member), float Look::*>)
           use(look.*member);
+        else if constexpr (std::is_same_v<decltype(member), float WeaveSettings::*> ||
+                           std::is_same_v<decltype(member), std::vector<std::string> WeaveSettings::*>)
+          use(look.weave.*member);
         else if constexpr (!std::is_same_v<decltype(member), OfBothFamilies>)
           use(look.*(field.family).*member);
       },

@@ -30,6 +30,16 @@ struct ThreadFamily {
   std::vector<float> lengths{1};         ///< l_0 ... l_{k-1}, not negative, not all 0
 };
 
+/// How the threads cross, for cloth that is seen from so near that they show (fabric/weave.h). The far picture does
+/// not depend on it.
+struct WeaveSettings {
+  std::vector<std::string> draft;  ///< see look/draft.h; empty: no threads are shown
+  float warp_per_cm = 30;          ///< warp threads side by side, 0.5 to 500
+  float weft_per_cm = 30;
+  float irregularity = 0;  ///< how far the threads' edges stray, as a share of their spacing, 0 to 0.4
+  float slubs = 0;         ///< how much thick places of the weft push their neighbours aside, 0 to 1
+};
+
 /// A fabric as authored: human units, a default on every field. Warp runs along x = dP/du, weft along y.
 struct Look {
   std::string name;  ///< file name without extension
@@ -38,6 +48,7 @@ struct Look {
   std::string source;  ///< where the numbers come from
   std::string color_space = "lin_rec709";
   ThreadFamily warp, weft;
+  WeaveSettings weave;
   float masking_width_deg = 20;  ///< sigma of u in M and P (2013: 15 to 25), 5 to 60
   float warp_angle_deg = 0;      ///< turns the warp about the normal, from dP/du towards dP/dv, -180 to 180
   std::string back;              ///< name or path of another look for the back of the cloth; empty: the same

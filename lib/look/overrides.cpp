@@ -11,6 +11,7 @@
 #include "look/field_values.h"
 #include "look/json.h"
 #include "look/read.h"
+#include "look/wif.h"
 
 namespace sateen {
 
@@ -43,8 +44,9 @@ std::string with_json_numbers(std::string_view typed) {
 
 // What the user typed, as a value: texts may come without quotes and lists without brackets.
 JsonValue typed_value(const Field& field, std::string_view typed) {
-  const bool is_text =
-      field.kind == FieldKind::text || field.kind == FieldKind::name || field.kind == FieldKind::look_name;
+  const bool is_text = field.kind == FieldKind::text || field.kind == FieldKind::name ||
+                       field.kind == FieldKind::look_name ||
+                       (field.kind == FieldKind::draft && !typed.starts_with('['));
   std::string json(trimmed(typed));
   if (is_text && !json.starts_with('"')) json = json_quote(typed);
   if (!is_text) json = with_json_numbers(json);
@@ -90,7 +92,8 @@ std::string path_help(const std::string& path) {
   for (const Field& field : fields()) {
     if (field.family == &Look::warp && (field.key == path || field.key == path + "_deg"))
       return fmt::format("did you mean warp.{0} or weft.{0}?", field.key);
-    if (field.path == path + "_deg") return fmt::format("did you mean {}?", field.path);
+    if (field.path == path + "_deg" || field.path == "weave." + path)
+      return fmt::format("did you mean {}?", field.path);
     paths.push_back(field.path);
   }
   if (path == "inherits") return "choose the look itself instead";
@@ -106,16 +109,22 @@ std::string key_help(const std::string& key, const std::string& group) {
     (same_level ? here : elsewhere).push_back(field.key);
     if (same_level && field.key == key + "_deg") return fmt::format("did you mean {}?", field.key);
   }
-  if (group.empty()) here.insert(here.end(), {"inherits", "pattern", "warp", "weft"});
+  if (group.empty()) here.insert(here.end(), {"inherits", "pattern", "warp", "weft", "weave"});
   if (!group.empty()) elsewhere.push_back("inherits");
-  const std::string level = !group.empty()                   ? "at the top level"
-                            : key == "mask" || key == "look" ? "inside \"pattern\""
-                                                             : "inside \"warp\" or \"weft\"";
+  const auto level_of = [&](const std::string& known) {
+    for (const Field& field : fields())
+      if (field.key == known && field.group != group && !field.is_shorthand())
+        return field.group.empty()        ? "at the top level"
+               : field.group == "weave"   ? "inside \"weave\""
+               : field.group == "pattern" ? "inside \"pattern\""
+                                          : "inside \"warp\" or \"weft\"";
+    return "at the top level";
+  };
   if (std::find(elsewhere.begin(), elsewhere.end(), key) != elsewhere.end())
-    return fmt::format("it belongs {}", level);
+    return fmt::format("it belongs {}", level_of(key));
   if (nearest_name(key, here).empty())
     if (const std::string near = nearest_name(key, elsewhere); !near.empty())
-      return fmt::format("did you mean {}, {}?", near, level);
+      return fmt::format("did you mean {}, {}?", near, level_of(near));
   return suggestion(key, here);
 }
 
@@ -165,6 +174,13 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
           named = std::filesystem::absolute(found).lexically_normal().string();
       } catch (const InputError& error) {
         complain(text, fmt::format("there is no look {}", shown_name(named)), error.diagnostics.front().help);
+      }
+    }
+    if (field->kind == FieldKind::draft) {
+      try {
+        settle_draft(changed.weave.draft, {});
+      } catch (const InputError& error) {
+        complaints.insert(complaints.end(), error.diagnostics.begin(), error.diagnostics.end());
       }
     }
     if (field->is_shorthand()) {

@@ -11,6 +11,7 @@
 #include "look/field_values.h"
 #include "look/json.h"
 #include "look/overrides.h"
+#include "look/wif.h"
 
 namespace sateen {
 
@@ -121,7 +122,8 @@ class LayerReader {
 
   void read_top_level(const JsonValue& item) {
     if (item.key == "$schema" || item.key == "inherits") return;
-    if (item.key == "warp" || item.key == "weft" || item.key == "pattern") return read_group(item);
+    if (item.key == "warp" || item.key == "weft" || item.key == "pattern" || item.key == "weave")
+      return read_group(item);
     const Field* field = find_field(item.key);
     if (!field || !field->group.empty())
       return complain(item.key_place, "unknown key " + shown_name(item.key), key_help(item.key, {}));
@@ -158,6 +160,15 @@ class LayerReader {
     if (field.kind == FieldKind::look_name) settle_look_name(field, item);
     for (auto& [path, texture] : layer_.look.textures)
       if (texture.origin.empty()) texture.origin = fmt::format("{}:{}", document_.file, item.place.line);
+    if (field.kind == FieldKind::draft) try {
+        settle_draft(layer_.look.weave.draft, document_.file);
+      } catch (const InputError& error) {
+        for (const Diagnostic& fault : error.diagnostics)
+          if (fault.line > 0)
+            parent_complaints_.push_back(fault);
+          else
+            complain(item.place, fault.message, fault.help);
+      }
     set_origin(field.path, item.place);
   }
 

@@ -17,6 +17,7 @@
 #include "mesh/subdivide.h"
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
+#include "scene/near_weave.h"
 
 namespace sateen {
 
@@ -98,6 +99,19 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   return cloth;
 }
 
+/// How large the cloth is and from how near its threads show.
+void settle_weave(const SceneSettings& settings, Scene& scene, SceneReport& report) {
+  if (scene.front.weave.empty() && (!scene.back || scene.back->weave.empty())) return;
+  const float known = settings.uv_metres > 0 ? settings.uv_metres : scene.mesh->metres_per_uv;
+  scene.metres_per_uv = known > 0 ? known : 1;
+  scene.near_weave_pixel = near_weave_pixel(scene);
+  if (!(known > 0) && may_show_yarns(scene))
+    report.warnings.push_back(
+        fmt::format("{}: nothing says how large the cloth is; its threads are counted as if one UV unit were a metre "
+                    "(--uv-metres)",
+                    settings.mesh));
+}
+
 std::string hash_environment(const Environment& environment) {
   Hash hash;
   for (const Environment::Texel& texel : environment.texels) hash.add_bytes(&texel.radiance, sizeof texel.radiance);
@@ -157,6 +171,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
+  settle_weave(settings, scene, report);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   set_stage(scene, settings.stage, settings.threads);
   report.environment_hash = hash_environment(scene.environment);

@@ -20,6 +20,7 @@ struct SceneSettings {
   std::string mesh = default_mesh;          ///< a built-in shape or the path of an OBJ
   int level = -1;                           ///< subdivision, 0 to 6; -1: by pixel size
   float warp_angle_deg = 0;                 ///< added to the look's own
+  float uv_metres = 0;                      ///< cloth that one UV unit spans; 0: as the mesh says
   std::string environment = default_environment;
   std::string environment_space;  ///< colour space of the map; empty: as the file says
   float environment_rotation_deg = 0;

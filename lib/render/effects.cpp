@@ -39,6 +39,7 @@ const std::vector<EffectInfo>& effect_list() {
       {Effect::tangent_curve, "tangent-curve", "threads that bend over and under each other", false},
       {Effect::back, "back", "another look on the back of the cloth", true},
       {Effect::gaps, "gaps", "light and sight straight through between the threads", true},
+      {Effect::weave, "weave", "threads one by one where the camera is near", true},
       {Effect::self_shadowing, "self-shadowing", "folds that keep light from one another", true},
       {Effect::interreflection, "interreflection", "light from fold to fold", true},
       {Effect::backdrop, "backdrop", "what is seen beside the cloth", true},
@@ -106,6 +107,9 @@ void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
       if (scene.back) close_gaps(*scene.back);
       scene.has_gaps = false;
       break;
+    case Effect::weave:
+      scene.near_weave_pixel = 0;
+      break;
     case Effect::self_shadowing:
       scene.self_shadowing = false;
       break;
@@ -131,6 +135,7 @@ std::string effects_text(const Scene& scene, const LightSettings& light) {
   };
   add(scene.back.has_value(), Effect::back);
   add(scene.has_gaps, Effect::gaps);
+  add(scene.near_weave_pixel > 0, Effect::weave);
   add(scene.self_shadowing, Effect::self_shadowing);
   add(light.bounces > 0, Effect::interreflection);
   add(scene.backdrop != Backdrop::none, Effect::backdrop);

@@ -17,6 +17,7 @@ enum class Effect {
   tangent_curve,
   back,
   gaps,
+  weave,
   self_shadowing,
   interreflection,
   backdrop

@@ -53,6 +53,7 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
       {"map", report.environment_hash, named(s.environment, report.environment_hash)},
       {"level", number(report.level), {}},
       {"warp angle", number(s.warp_angle_deg), {}},
+      {"uv metres", number(s.uv_metres), {}},
       {"map space", s.environment_space, {}},
       {"map rotation", number(s.environment_rotation_deg), {}},
       {"map exposure", number(s.environment_ev), {}},

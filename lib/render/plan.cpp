@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "mesh/convexity.h"
 #include "render/plan_pilot.h"
+#include "scene/near_weave.h"
 
 namespace sateen {
 
@@ -69,6 +70,19 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
     planned.on = false;
     planned.basis = Basis::asked;
     planned.reason = fmt::format("switched off; {}", reason);
+  }
+  return planned;
+}
+
+PlannedEffect plan_weave(const Scene& scene, const Look& look, const EffectSwitches& switches) {
+  PlannedEffect planned =
+      described(Effect::weave, scene.near_weave_pixel > 0, switches,
+                fmt::format("{} by {} threads a centimetre", look.weave.warp_per_cm, look.weave.weft_per_cm),
+                "the look has no draft", "name one: --set weave.draft=plain");
+  if (planned.on && !switches.named_on(Effect::weave) && !may_show_yarns(scene)) {
+    planned.on = false;
+    planned.basis = Basis::data;
+    planned.reason += ": none fills a pixel";
   }
   return planned;
 }
@@ -177,6 +191,7 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
   gaps.share = pilot.through_gaps;
   plan.effects.push_back(gaps);
 
+  plan.effects.push_back(plan_weave(scene, look, switches));
   plan.effects.push_back(plan_self_shadowing(form, switches));
   Bounces bounces = plan_bounces(pilot, lit_form, switches, plan.error);
   plan.bounces = bounces.count;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/files.h"
 #include "base/nearest_name.h"
 
@@ -145,6 +146,8 @@ fs::path find_environment(const std::string& name) {
 
 Environment read_environment(const std::string& path_or_name, const ColorManager& colors,
                              const EnvironmentFileOptions& options, std::string* used_space) {
+  // Lossy EXRs are decoded in floating point: whoever calls, denormals are flushed as everywhere.
+  flush_denormals();
   const fs::path path = find_environment(path_or_name);
   ImageFileInfo info;
   Image map = read_image(path, options.limits, &info);

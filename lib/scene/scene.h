@@ -42,6 +42,8 @@ struct Scene {
   std::optional<Ground> ground;
   std::optional<Lens> lens;              ///< empty: a pinhole
   std::optional<Shutter> shutter;        ///< empty: nothing turns
+  float metres_per_uv = 1;               ///< the cloth's own size, which threads per centimetre are counted on
+  float near_weave_pixel = 0;            ///< scene/near_weave.h; 0: threads never show one by one
 };
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
@@ -54,6 +56,7 @@ struct ClothPoint {
   Vec3 wo;               ///< towards the viewer, cloth frame; wo.z > 0
   float gap;             ///< share of the area here that light and sight pass
   YTurn object;          ///< under a shutter: how the object stands; `frame` and `facing` are turned with it
+  YarnPlace yarn;        ///< what is on top here; its `near` is 0 but where a camera sees the cloth from near
   PointValues values;    ///< what textures say here
   bool mapped;           ///< whether they say anything; false: `values` hold nothing
 

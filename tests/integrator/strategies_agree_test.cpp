@@ -12,6 +12,7 @@
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
 #include "scene/environment_file.h"
+#include "scene/near_weave.h"
 
 // All strategies converge to the same picture: every pixel, every block of 4 x 4 pixels and the whole picture of
 // every scene, by deviates of means of independent batches, corrected for their number (Sidak).
@@ -32,6 +33,7 @@ struct SceneRecipe {
   /// not normal, whatever the number of batches (at least about 50 hits are wanted). Nothing: the light is met by one
   /// direction in 100,000.
   Scale blind = Scale::pixel;
+  float zoom = 1;  ///< of the camera; near enough, single threads show
 };
 
 Environment made_map(const std::string& name) {
@@ -63,7 +65,9 @@ Scene cook(const SceneRecipe& recipe) {
   scene.has_gaps = scene.front.gap > 0 || (scene.back && scene.back->gap > 0);
   CameraSettings camera;
   camera.azimuth_deg = 20;
+  camera.zoom = recipe.zoom;
   scene.camera = frame_points(scene.mesh->positions, camera, 24, 16);
+  scene.near_weave_pixel = near_weave_pixel(scene);
   return scene;
 }
 
@@ -171,6 +175,13 @@ TEST(Strategies, ConvergeToTheSamePictureOverTheWholeGridOfScenesWithLightThatMe
 
 TEST(Strategies, ConvergeToTheSamePicture) {
   expect_agreement(everyday(), 0, 32, Scale::pixel);
+}
+
+TEST(Strategies, ConvergeToTheSamePictureOfThreadsSeenFromNear) {
+  expect_agreement({{"linen_plain", "swatch", 1, "constant", Scale::block, 300},
+                    {"shot_taffeta", "swatch", 1, "noise", Scale::block, 600},
+                    {"champagne_silk_satin", "swatch", 1, "studio_softboxes", Scale::picture, 600}},
+                   1, 10, Scale::block);
 }
 
 TEST(Strategies, ConvergeToTheSamePictureWithLightThatMeetsClothAgain) {

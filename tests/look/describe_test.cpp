@@ -33,6 +33,7 @@ TEST(WriteLook, RoundTripsRandomLooksBitByBit) {
     look.title = "\"quoted\" \\ \n\t\x01 \xe2\x82\xac";
     look.masking_width_deg = random(5, 60);
     look.warp_angle_deg = random(-180, 180);
+    look.weave = {{"x..", ".x.", "..x"}, random(0.5, 500), random(0.5, 500), random(0, 0.4), random(0, 1)};
     for (ThreadFamily* family : {&look.warp, &look.weft}) {
       family->eta = random(1, 3);
       family->k_d = random(0, 1) * 1e-30f;
@@ -89,6 +90,8 @@ TEST(LookHash, SeesEveryFieldThatChangesTheCloth) {
         member.value.z = std::nextafter(member.value.z, 1.0f);
       else if constexpr (std::is_same_v<Member, std::optional<ColorValue>>)
         member = ColorValue();
+      else if constexpr (std::is_same_v<Member, std::vector<std::string>>)
+        member = {"plain"};
       else
         member.back() = std::nextafter(member.back(), 1000.0f);
     });
@@ -96,7 +99,7 @@ TEST(LookHash, SeesEveryFieldThatChangesTheCloth) {
     EXPECT_EQ(diff_looks(look, changed).empty(), !field.appearance) << field.path;
     ++seen;
   }
-  EXPECT_EQ(seen, 27);
+  EXPECT_EQ(seen, 32);
 }
 
 TEST(LookHash, TellsAllShippedLooksApart) {
@@ -127,9 +130,14 @@ TEST(LookSchema, HoldsEveryFieldWithItsRangeAndDefault) {
   const JsonValue* top = schema.root.find("properties");
   const JsonValue* family = schema.root.find("$defs")->find("family")->find("properties");
   const JsonValue* pattern = schema.root.find("$defs")->find("pattern")->find("properties");
+  const JsonValue* weave = top->find("weave")->find("properties");
   size_t found = 0;
   for (const Field& field : fields()) {
-    const JsonValue* property = (field.family ? family : field.group.empty() ? top : pattern)->find(field.key);
+    const JsonValue* level = field.family              ? family
+                             : field.group.empty()     ? top
+                             : field.group == "weave" ? weave
+                                                       : pattern;
+    const JsonValue* property = level->find(field.key);
     ASSERT_TRUE(property) << field.path;
     EXPECT_NE(property->find("description")->text.find(field.help), std::string::npos);
     const std::string initial = field_text(Look(), field);
@@ -140,10 +148,10 @@ TEST(LookSchema, HoldsEveryFieldWithItsRangeAndDefault) {
       EXPECT_EQ(number->find("maximum")->number, field.high);
       EXPECT_EQ(property->find("default")->text, initial);
     }
-    found += field.family != &Look::weft;
+    found += field.group != "weft";
   }
-  // $schema, inherits, pattern, warp, weft
-  EXPECT_EQ(top->items.size() + family->items.size() + pattern->items.size(), found + 5);
+  // And $schema, inherits, pattern, warp, weft, weave.
+  EXPECT_EQ(top->items.size() + family->items.size() + pattern->items.size() + weave->items.size(), found + 6);
   EXPECT_FALSE(schema.root.find("additionalProperties")->boolean);
 }
 

@@ -60,7 +60,7 @@ TEST(ReadLook, NamesTheNearestKeyOrTheLevelWhereItBelongs) {
       {"{\"zzzzzzzz\": 0}",
        "silk.json:1:2: error: unknown key zzzzzzzz\n    1 | {\"zzzzzzzz\": 0}\n      |  ^^^^^^^^^^\n"
        "  help: known: title, description, source, color_space, color, masking_width_deg, warp_angle_deg, back, "
-       "inherits, pattern, warp, weft"},
+       "inherits, pattern, warp, weft, weave"},
       {"{\"a\": [1, 1, 1]}",
        "silk.json:1:2: error: unknown key a\n    1 | {\"a\": [1, 1, 1]}\n      |  ^^^\n"
        "  help: did you mean A, inside \"warp\" or \"weft\"?"},

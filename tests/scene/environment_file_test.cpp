@@ -148,7 +148,7 @@ TEST(ReadEnvironment, ReadsTheMapsOfOthersWithTheirRepairsCounted) {
   };
   const Known all[] = {{"apartment", 11, 0, 19.5f},  {"city", 299, 0, 33071}, {"forest", 784, 0, 1761},
                        {"interior", 5053, 0, 30673}, {"sky", 11, 0, 28692},   {"studio", 3, 0, 329.4f},
-                       {"sunrise", 195, 14, 3562}};
+                       {"sunrise", 151, 14, 3562}};
   const ColorManager colors("built-in");
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);

@@ -1,0 +1,77 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fabric/threads.h"
+#include "look/look.h"
+
+namespace sateen {
+
+/// A weave compiled for cloth that is seen from so near that its threads have places. Weave coordinates [metres]: x
+/// along the warp, y along the weft, as in the cloth's frame. Warp yarns lie side by side along y, weft yarns along
+/// x; a yarn is a strip of its spacing's width times `width`, and between the strips the other family, or nothing,
+/// shows. Immutable.
+///
+/// The mean over the cloth is the far model's (cloth-model.md section 3), exactly: the widths are chosen so that each
+/// family covers its share a_j, the places along all floats spread evenly over the tangent curve, and what depends on
+/// the place across a yarn has the mean 1. What strays is which place has which value, never how much there is of it.
+struct Weave {
+  int ends = 0, picks = 0;                    ///< of the repeat; 0: no weave, no threads to be seen
+  std::vector<std::uint8_t> warp_up;          ///< [pick * ends + end], both in the order of growing y and x
+  double warp_spacing = 0, weft_spacing = 0;  ///< [metres]
+  double warp_width = 0, weft_width = 0;      ///< share of the spacing that a yarn fills, 0 to 1
+  double irregularity = 0, slubs = 0;         ///< as authored
+  /// Tangent curves, as authored [degrees]; the place along a float runs from a curve's end to its start
+  std::array<std::vector<float>, 2> offsets_deg, lengths;
+  /// Across a yarn: widths of the highlight and of the glow, in half widths of the yarn.
+  std::array<double, 2> surface_width{}, volume_width{};
+  std::array<double, 2> twist{};  ///< strands that pass under one's finger along a metre of yarn: spun yarns turn
+
+  bool empty() const { return ends == 0; }
+};
+
+/// The look's weave; empty where it has no draft. InputError when the draft cannot be read.
+Weave compile_weave(const Look& look);
+
+/// Strands of fibres that show side by side on a yarn; few enough to be seen and many enough to look like fibres.
+inline constexpr int strands_across = 7;
+
+/// Widths of strips with which warp and weft cover `warp` and `weft` of the cloth's area (their sum at most 1), where
+/// the warp is on top in the share `up` of all crossings: there is always exactly one such pair.
+struct YarnWidths {
+  double warp = 0, weft = 0;
+};
+YarnWidths yarn_widths(double warp, double weft, double up);
+
+/// What lies on top at one place of the cloth, and how much the picture makes of it.
+struct YarnPlace {
+  float near = 0;     ///< share of this one yarn in the picture; what is left of 1 is the threads' mean
+  int family = -1;    ///< 0 warp, 1 weft, -1 nothing: a gap
+  float offset = 0;   ///< tilt of the thread there [radians]
+  float across = 0;   ///< place across the yarn, -1 to 1, growing with y (warp) or x (weft)
+  float dark = 0;     ///< light that is missing at the yarn's very edge, 0 to 1: most where a float dives
+  float fibre = 0;    ///< place across the strand of fibres that lies there, -1 to 1
+  float strands = 0;  ///< share of the strands in the yarn's shading; 0 where they are too fine to be seen
+};
+
+/// The place at weave coordinates (x, y) [metres], `near` and `strands` left 0. The weave must not be empty.
+YarnPlace yarn_at(const Weave& weave, double x, double y);
+
+/// Mean-1 weight of a place across a yarn, or a strand of it, for light whose half vector has the sine `middle` of
+/// its azimuth about the thread: a bump of `width` where the yarn's own normal looks along it, and edges that lack
+/// the share `dark` of their light. For every middle in [-1, 1] its mean over `across` in [-1, 1] is 1.
+double profile(double across, double middle, double width, double dark);
+
+/// Blends the threads' mean `parts` at (wi, wo) with the yarn at `place`: F = (1 - near) F_far + near F_near, where
+/// F_near = (1/Q) f M P cos theta_i of that yarn's one tangent times its profile, and Q is the far model's full mean.
+/// Unit directions in the cloth's frame. `threads` are those that `parts` came from.
+void add_yarn(const Weave& weave, const Threads<float>& threads, const YarnPlace& place, const Vec3& wo,
+              const Vec3& wi, ThreadSums<float>& parts);
+
+/// Share of light that passes straight through: that of the far model, `gap`, and at a place that is seen from near 1
+/// in a gap and 0 on a yarn.
+float passing(float gap, const YarnPlace& place);
+
+}  // namespace sateen
