@@ -195,6 +195,9 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int default_s
   f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;
   f.switches = read_effects(f.effects);
+  if (f.switches.named_on(Effect::references)) f.stage.references = true;
+  if (f.switches.named_off(Effect::references)) f.stage.references = false;
+  f.switches.references = f.stage.references;
   if (command.given("--bounces")) {
     f.switches.bounces = f.render.light.bounces;
     const bool off = f.switches.named_off(Effect::interreflection), on = f.switches.named_on(Effect::interreflection);

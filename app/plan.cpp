@@ -22,6 +22,7 @@ int run_plan(const std::vector<std::string>& words) {
       "for. "
       "light: its share of the picture's light; time: what it adds to a sample, or saves.");
   add_picture_flags(command, flags);
+  add_shutter_flag(command, flags.scene.stage);
   command.example("sateen plan -m dress.obj -l ivory_duchess_satin --error 0.02", "for an error of 2 %");
   command.example("sateen plan --effects auto,-gaps --json", "as JSON, with one effect switched off");
   if (!command.parse(words)) return done;

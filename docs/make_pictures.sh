@@ -78,9 +78,14 @@ effects() {
   picture effect_maps_on -l printed_silk "${pair[@]}"
   picture effect_pattern_off -l silk_damask --set pattern.mask=0 "${pair[@]}"
   picture effect_pattern_on -l silk_damask "${pair[@]}"
-  # Without gaps the threads lie close: the same ones over the whole of the area.
-  picture effect_gaps_off -l silk_organza --set warp.coverage=0.5 --set weft.coverage=0.5 "${pair[@]}"
-  picture effect_gaps_on -l silk_organza "${pair[@]}"
+  picture effect_gaps_off -l silk_organza --effects auto,-gaps -r 640 360 -s 64 --bounces 1
+  picture effect_gaps_on -l silk_organza -r 640 360 -s 64 --bounces 1
+  picture effect_interreflection_off -l ivory_duchess_satin -m skirt --elevation 10 --bounces 0 -r 640 360 -s 96 --adaptive
+  picture effect_interreflection_on -l ivory_duchess_satin -m skirt --elevation 10 -r 640 360 -s 192 --adaptive
+  picture effect_self_shadowing_off -l emerald_satin --effects none -r 640 360 -s 64 --adaptive
+  picture effect_self_shadowing_on -l emerald_satin --effects none,+self-shadowing -r 640 360 -s 64 --adaptive
+  picture effect_back_off -l polyester_satin_charmeuse --effects auto,-back -r 640 360 -s 64 --adaptive
+  picture effect_back_on -l polyester_satin_charmeuse -r 640 360 -s 64 --adaptive
   local wide=(-r 640 360 -s 48 --adaptive --bounces 1)
   picture effect_ground_off "${wide[@]}"
   picture effect_ground_on --ground floor "${wide[@]}"

@@ -103,6 +103,8 @@ Bill make_bill(const Scene& scene, const Plan& plan, const LightSettings& light,
         break;
       case Effect::isotropic_volume:  // billed with the directed part: the kernel adds them up
       case Effect::tangent_curve:
+      case Effect::references:
+      case Effect::subdivision:
         break;
       default:
         bill.items.push_back(biller.removable(planned.effect));

@@ -28,6 +28,18 @@ void close_gaps(Fabric& fabric) {
   fabric.gap = 0;
 }
 
+/// Changes the maps of both sides, and lets go of those that say nothing any more.
+template <class Change>
+void keep_maps(Scene& scene, const Change& change) {
+  for (std::shared_ptr<const SideMaps>* side : {&scene.front_maps, &scene.back_maps}) {
+    if (!*side) continue;
+    auto changed = std::make_shared<SideMaps>(**side);
+    change(*changed);
+    *side = changed->own.any() || changed->pattern ? changed : nullptr;
+  }
+  scene.has_maps = scene.front_maps || scene.back_maps;
+}
+
 }  // namespace
 
 const std::vector<EffectInfo>& effect_list() {
@@ -38,11 +50,18 @@ const std::vector<EffectInfo>& effect_list() {
       {Effect::isotropic_volume, "isotropic-volume", "even glow from inside the threads", false},
       {Effect::tangent_curve, "tangent-curve", "threads that bend over and under each other", false},
       {Effect::back, "back", "another look on the back of the cloth", true},
+      {Effect::maps, "maps", "colours and numbers from textures", true},
+      {Effect::pattern, "pattern", "a second look woven in by a mask", true},
       {Effect::gaps, "gaps", "light and sight straight through between the threads", true},
       {Effect::weave, "weave", "threads one by one where the camera is near", true},
       {Effect::self_shadowing, "self-shadowing", "folds that keep light from one another", true},
       {Effect::interreflection, "interreflection", "light from fold to fold", true},
+      {Effect::ground, "ground", "what the cloth stands on", true},
+      {Effect::depth_of_field, "depth-of-field", "a lens that is sharp at one distance", true},
+      {Effect::motion_blur, "motion-blur", "a shutter that is open while things turn", true},
       {Effect::backdrop, "backdrop", "what is seen beside the cloth", true},
+      {Effect::references, "references", "grey and chrome balls and a colour chart", true},
+      {Effect::subdivision, "subdivision", "the limit surface of the mesh", false},
   };
   return all;
 }
@@ -97,10 +116,31 @@ EffectSwitches read_effects(const std::string& list) {
   return switches;
 }
 
+bool has_maps(const Scene& scene) {
+  const auto some = [](const std::shared_ptr<const SideMaps>& side) {
+    return side && (side->own.any() || (side->pattern && side->pattern->maps.any()));
+  };
+  return some(scene.front_maps) || some(scene.back_maps);
+}
+
+bool has_pattern(const Scene& scene) {
+  return (scene.front_maps && scene.front_maps->pattern) || (scene.back_maps && scene.back_maps->pattern);
+}
+
 void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
   switch (effect) {
     case Effect::back:
       scene.back.reset();
+      break;
+    case Effect::maps:
+      // The pattern is another effect: its mask stays, with the plain values of both looks.
+      keep_maps(scene, [](SideMaps& side) {
+        side.own = {};
+        if (side.pattern) side.pattern->maps = {};
+      });
+      break;
+    case Effect::pattern:
+      keep_maps(scene, [](SideMaps& side) { side.pattern.reset(); });
       break;
     case Effect::gaps:
       close_gaps(scene.front);
@@ -119,6 +159,17 @@ void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
     case Effect::backdrop:
       scene.backdrop = Backdrop::none;
       break;
+    case Effect::ground:
+      scene.ground.reset();
+      break;
+    case Effect::depth_of_field:
+      scene.lens.reset();
+      break;
+    case Effect::motion_blur:
+      scene.shutter.reset();
+      break;
+    case Effect::references:  // laid over the picture
+    case Effect::subdivision:
     case Effect::families:
     case Effect::surface_lobe:
     case Effect::directed_volume:
@@ -134,10 +185,15 @@ std::string effects_text(const Scene& scene, const LightSettings& light) {
     if (on) names.push_back(effect_info(effect).name);
   };
   add(scene.back.has_value(), Effect::back);
+  add(has_maps(scene), Effect::maps);
+  add(has_pattern(scene), Effect::pattern);
   add(scene.has_gaps, Effect::gaps);
   add(scene.near_weave_pixel > 0, Effect::weave);
   add(scene.self_shadowing, Effect::self_shadowing);
   add(light.bounces > 0, Effect::interreflection);
+  add(scene.ground.has_value(), Effect::ground);
+  add(scene.lens.has_value(), Effect::depth_of_field);
+  add(scene.shutter.has_value(), Effect::motion_blur);
   add(scene.backdrop != Backdrop::none, Effect::backdrop);
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ","));
 }

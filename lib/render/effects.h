@@ -16,11 +16,18 @@ enum class Effect {
   isotropic_volume,
   tangent_curve,
   back,
+  maps,
+  pattern,
   gaps,
   weave,
   self_shadowing,
   interreflection,
-  backdrop
+  ground,
+  depth_of_field,
+  motion_blur,
+  backdrop,
+  references,
+  subdivision
 };
 
 struct EffectInfo {
@@ -43,6 +50,7 @@ struct EffectSwitches {
   Rest rest = Rest::automatic;        ///< of the effects that are not named
   std::vector<Effect> on, off;        ///< named
   std::optional<int> bounces;         ///< of interreflection; 0 is off
+  bool references = false;            ///< they are laid over the picture and take no part in its light
   std::optional<float> bounce_share;  ///< LightSettings::bounce_share
 
   bool named_on(Effect effect) const;
@@ -55,6 +63,10 @@ EffectSwitches read_effects(const std::string& list);
 
 /// Bounces of interreflection that is not cut short: roulette ends paths long before.
 inline constexpr int every_bounce = 16;
+
+/// Whether textures say something of some side, and whether a pattern does.
+bool has_maps(const Scene& scene);
+bool has_pattern(const Scene& scene);
 
 /// Takes an effect out of a scene, which then is the scene that never had it.
 void remove_effect(Effect effect, Scene& scene, LightSettings& light);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "mesh/convexity.h"
+#include "render/plan_parts.h"
 #include "render/plan_pilot.h"
 #include "scene/near_weave.h"
 
@@ -56,22 +57,6 @@ std::vector<PlannedEffect> plan_model(const Look& look, const PlanPilot& pilot) 
                          bends ? fmt::format("{} and {} pieces", warp.lengths.size(), weft.lengths.size())
                                : "the threads lie straight: one tangent each"));
   return all;
-}
-
-/// An effect that is there because the scene describes it.
-PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& switches, const std::string& reason,
-                        const std::string& missing, const std::string& remedy) {
-  PlannedEffect planned{effect, is_there, is_there ? Basis::look : Basis::data, is_there ? reason : missing, {},
-                        {},     0};
-  if (!is_there && switches.named_on(effect))
-    throw InputError(fmt::format("--effects +{}: {}", effect_info(effect).name, missing), remedy);
-  if (is_there &&
-      (switches.named_off(effect) || (switches.rest == EffectSwitches::Rest::none && !switches.named_on(effect)))) {
-    planned.on = false;
-    planned.basis = Basis::asked;
-    planned.reason = fmt::format("switched off; {}", reason);
-  }
-  return planned;
 }
 
 PlannedEffect plan_weave(const Scene& scene, const Look& look, const EffectSwitches& switches) {
@@ -167,6 +152,21 @@ const std::string& basis_name(Basis basis) {
   return names[size_t(basis)];
 }
 
+PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& switches, const std::string& reason,
+                        const std::string& missing, const std::string& remedy) {
+  PlannedEffect planned{effect, is_there, is_there ? Basis::look : Basis::data, is_there ? reason : missing, {},
+                        {},     0};
+  if (!is_there && switches.named_on(effect))
+    throw InputError(fmt::format("--effects +{}: {}", effect_info(effect).name, missing), remedy);
+  if (is_there &&
+      (switches.named_off(effect) || (switches.rest == EffectSwitches::Rest::none && !switches.named_on(effect)))) {
+    planned.on = false;
+    planned.basis = Basis::asked;
+    planned.reason = fmt::format("switched off; {}", reason);
+  }
+  return planned;
+}
+
 Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switches, double error,
                const LightSettings& light, std::uint32_t seed, int threads) {
   Plan plan;
@@ -184,6 +184,10 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
   back.share = pilot.back;
   plan.effects.push_back(back);
 
+  plan.effects.push_back(described(Effect::maps, has_maps(scene), switches, "the look names textures",
+                                   "the look has no textures", "give a field one: see docs/maps.md"));
+  plan.effects.push_back(described(Effect::pattern, has_pattern(scene), switches, "the look names a pattern",
+                                   "one look everywhere", "name one: pattern.mask and pattern.look"));
   const float gap = std::max(scene.front.gap, scene.back ? scene.back->gap : 0);
   PlannedEffect gaps = described(Effect::gaps, scene.has_gaps, switches,
                                  fmt::format("no thread covers {} of the cloth", percent(double(gap))),
@@ -201,6 +205,9 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
     bounces.planned.reason += fmt::format("; followed by {} of the samples", percent(double(plan.bounce_share)));
   plan.effects.push_back(std::move(bounces.planned));
 
+  plan.effects.push_back(plan_ground(scene, switches));
+  plan.effects.push_back(plan_lens(scene, switches));
+  plan.effects.push_back(plan_shutter(scene, switches));
   PlannedEffect backdrop = described(
       Effect::backdrop, scene.backdrop != Backdrop::none, switches,
       scene.backdrop == Backdrop::plain ? "one colour beside the cloth" : "the map is seen beside the cloth",
@@ -208,6 +215,8 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
   backdrop.basis = Basis::asked;
   backdrop.share = pilot.backdrop;
   plan.effects.push_back(backdrop);
+  plan.effects.push_back(plan_references(switches));
+  plan.effects.push_back(plan_subdivision(scene));
   return plan;
 }
 

@@ -164,6 +164,46 @@ TEST(Plan, AnEffectThatIsOffLeavesTheBitsOfASceneThatNeverHadIt) {
   EXPECT_NE(bits("none,+back", two_sided), bits("none", one_sided));
 }
 
+TEST(Plan, APartOfTheStageThatIsOffLeavesTheBitsOfASceneThatNeverHadIt) {
+  const SceneSettings plain = scene_settings("habotai", 64, 48);
+  SceneSettings staged = plain;
+  staged.stage.ground = GroundSettings();
+  staged.stage.lens = LensSettings();
+  staged.stage.shutter_deg = 3;
+  const auto bits = [](const std::string& effects, const SceneSettings& settings) {
+    return hash_after(plan_of(settings, scene_of(settings), effects, 0.03), settings);
+  };
+  const std::string whole = bits("all,-interreflection", staged), bare = bits("all,-interreflection", plain);
+  EXPECT_NE(whole, bare);
+  EXPECT_EQ(bits("all,-interreflection,-ground,-depth-of-field,-motion-blur", staged), bare);
+}
+
+TEST(Plan, TexturesAndPatternsCanBeSwitchedOff) {
+  const SceneSettings damask = scene_settings("silk_damask", 64, 48);
+  const auto bits = [](const std::string& effects, const SceneSettings& settings) {
+    return hash_after(plan_of(settings, scene_of(settings), effects, 0.03), settings);
+  };
+  EXPECT_NE(bits("none", damask), bits("none,+pattern", damask));
+  const SceneSettings print = scene_settings("printed_silk", 64, 48);
+  EXPECT_NE(bits("none", print), bits("none,+maps", print));
+  EXPECT_FALSE(plan_of(print, scene_of(print), "none", 0.03).of(Effect::maps).on);
+}
+
+TEST(Plan, WhatIsTooSmallToSeeIsOff) {
+  SceneSettings settings = scene_settings("emerald_satin", 64, 48);
+  settings.stage.lens = LensSettings();
+  settings.stage.lens->f_stop = 900;
+  settings.stage.shutter_deg = 0.01f;
+  const Plan plan = plan_of(settings, scene_of(settings), "auto", 0.03);
+  EXPECT_FALSE(plan.of(Effect::depth_of_field).on) << plan.of(Effect::depth_of_field).reason;
+  EXPECT_FALSE(plan.of(Effect::motion_blur).on) << plan.of(Effect::motion_blur).reason;
+  settings.stage.lens->f_stop = 1;
+  settings.stage.shutter_deg = 10;
+  const Plan large = plan_of(settings, scene_of(settings), "auto", 0.03);
+  EXPECT_TRUE(large.of(Effect::depth_of_field).on);
+  EXPECT_TRUE(large.of(Effect::motion_blur).on);
+}
+
 TEST(Plan, SelfShadowingThatGeometryRulesOutIsNotMissed) {
   const auto rendered = [](const SceneSettings& settings, const std::string& effects, bool expected_on) {
     Scene scene = scene_of(settings);

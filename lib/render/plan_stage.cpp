@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/plan_parts.h"
+
+namespace sateen {
+
+namespace {
+
+constexpr double visible_pixels = 0.5;
+
+/// The object as the camera sees it: a sphere around its bounds.
+struct Extent {
+  Vec3 middle;
+  double radius, nearest, farthest;  ///< along the view
+  double pixels_at_unit;             ///< that one scene unit fills at depth 1
+};
+Extent extent_of(const Scene& scene) {
+  Extent e;
+  e.middle = (scene.mesh->bounds_min + scene.mesh->bounds_max) * 0.5f;
+  e.radius = double((scene.mesh->bounds_max - e.middle).length());
+  const double depth = double(dot(e.middle - scene.camera.position, scene.camera.forward));
+  e.nearest = std::max(depth - e.radius, 1e-3 * e.radius);
+  e.farthest = std::max(depth + e.radius, e.nearest);
+  e.pixels_at_unit = scene.camera.width / (2 * double(scene.camera.tan_x));
+  return e;
+}
+
+void rule_out(PlannedEffect& planned, const EffectSwitches& switches, const std::string& why) {
+  if (!planned.on || switches.named_on(planned.effect)) return;
+  planned.on = false;
+  planned.basis = Basis::data;
+  planned.reason += ": " + why;
+}
+
+}  // namespace
+
+PlannedEffect plan_ground(const Scene& scene, const EffectSwitches& switches) {
+  const GroundKind kind = scene.ground ? scene.ground->kind : GroundKind::floor;
+  return described(Effect::ground, scene.ground.has_value(), switches,
+                   kind == GroundKind::catcher ? "a catcher takes the cloth's shadow"
+                   : kind == GroundKind::floor ? "a floor takes shadow and sends light"
+                                               : "a cyclorama takes shadow and sends light",
+                   "the cloth stands in the air", "say which: --ground floor");
+}
+
+PlannedEffect plan_lens(const Scene& scene, const EffectSwitches& switches) {
+  double blur = 0;
+  if (scene.lens) {
+    const Extent e = extent_of(scene);
+    const double radius = double(scene.lens->radius), focus = double(scene.lens->focus);
+    for (const double depth : {e.nearest, e.farthest})
+      blur = std::max(blur, 2 * radius * std::abs(1 / depth - 1 / focus) * e.pixels_at_unit);
+  }
+  PlannedEffect planned = described(Effect::depth_of_field, scene.lens.has_value(), switches,
+                                    fmt::format("the lens blurs the object by up to {:.2g} pixels", blur),
+                                    "a pinhole: all is sharp", "name an aperture: --f-stop 2.8");
+  // Behind and before the object there is something to blur where it is seen.
+  if (blur < visible_pixels && scene.backdrop != Backdrop::environment && !scene.ground)
+    rule_out(planned, switches, "less than half of one");
+  return planned;
+}
+
+PlannedEffect plan_shutter(const Scene& scene, const EffectSwitches& switches) {
+  double moved = 0;
+  if (scene.shutter) {
+    const Extent e = extent_of(scene);
+    const double angle =
+        std::max(std::abs(double(scene.shutter->object_angle)), std::abs(double(scene.shutter->camera_angle)));
+    moved = angle * e.radius / e.nearest * e.pixels_at_unit;
+  }
+  PlannedEffect planned =
+      described(Effect::motion_blur, scene.shutter.has_value(), switches,
+                fmt::format("things move by up to {:.2g} pixels while the shutter is open", moved), "nothing moves",
+                "say by how much: --shutter 5");
+  if (moved < visible_pixels) rule_out(planned, switches, "less than half of one");
+  return planned;
+}
+
+PlannedEffect plan_references(const EffectSwitches& switches) {
+  PlannedEffect planned =
+      described(Effect::references, switches.references, switches,
+                "laid over the picture; they take no part in its light", "not asked for", "--references");
+  planned.basis = Basis::asked;
+  return planned;
+}
+
+PlannedEffect plan_subdivision(const Scene& scene) {
+  const Mesh& mesh = *scene.mesh;
+  float longest = 0, off = 0;
+  for (const auto& quad : mesh.quads)
+    for (size_t k = 0; k < 4; ++k) {
+      const std::uint32_t a = quad[k], b = quad[(k + 1) % 4];
+      const Vec3 edge = mesh.positions[b] - mesh.positions[a];
+      const float pixel = scene.camera.pixel_size((mesh.positions[a] + mesh.positions[b]) * 0.5f);
+      if (!(pixel > 0)) continue;
+      const float length = edge.length() / pixel;
+      longest = std::max(longest, length);
+      // The chord of an arc that turns by an angle is off by an eighth of it times its length.
+      off = std::max(off, length * (mesh.normals[b] - mesh.normals[a]).length() / 8);
+    }
+  PlannedEffect planned;
+  planned.effect = Effect::subdivision;
+  planned.on = true;
+  planned.basis = Basis::data;
+  planned.reason =
+      fmt::format("{} triangles; edges are at most {:.2g} pixels long, silhouettes off by at most {:.2g}",
+                  mesh.triangles(), longest, off);
+  return planned;
+}
+
+}  // namespace sateen
