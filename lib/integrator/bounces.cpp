@@ -108,7 +108,8 @@ bool step(const Scene& scene, FabricSampler sampler, int bounce, const StepNumbe
   if (!next) return false;  // the environment was counted at the vertex before
   if (cloth) {
     prepare_threads(*cloth->fabric, cloth->wo, scratch.vertex, cloth->own_values());
-    path.throughput *= combine_parts(scratch.vertex, evaluate_parts(scratch.vertex, cloth->yarn, leaving.wi)) / leaving.pdf;
+    path.throughput *=
+        combine_parts(scratch.vertex, evaluate_parts(scratch.vertex, cloth->yarn, leaving.wi)) / leaving.pdf;
   }
   path.vertex = *next;
   if (const auto* met = std::get_if<ClothPoint>(&path.vertex)) {

@@ -35,6 +35,8 @@ struct PathScratch {
   FabricView vertex;                             ///< of the vertex that a path leaves
   std::array<SamplerView, batch_size> samplers;  ///< of a batch of hits
   MovingRays moving;                             ///< of a batch, under a shutter
+  std::array<ClothPoint, batch_size> cloth;      ///< of a batch, that its camera rays met
+  std::array<GroundPoint, batch_size> ground;
   RayCounts counts;
 };
 

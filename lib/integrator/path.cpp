@@ -22,27 +22,28 @@ bool keep(const Color& light, RayCounts& counts) {
   return false;
 }
 
-/// The samples of a batch that see one kind of surface: their vertices, and where they come from.
+/// The samples of a batch that see one kind of surface: their vertices, which are large and kept in the scratch, and
+/// where they come from.
 template <class Point>
 struct Seen {
-  std::array<Point, batch_size> points;
+  std::array<Point, batch_size>& points;
   std::array<size_t, batch_size> sample;
-  SequenceBatch numbers;
+  SequenceBatch numbers = {};
 
   size_t count() const { return size_t(numbers.count); }
-  void add(const Point& point, size_t k, const SequenceBatch& all) {
+  /// Room for the point of sample k.
+  Point& add(size_t k, const SequenceBatch& all) {
     const auto n = size_t(numbers.count++);
-    points[n] = point;
     sample[n] = k;
     numbers.seed[n] = all.seed[k];
     numbers.index[n] = all.index[k];
+    return points[n];
   }
 };
 
 /// Weights of the indirect light of a batch: 0 for the samples that do not follow it.
 Batch1 follow_weights(const LightSettings& settings, const SequenceBatch& samples) {
   Batch1 weights{};
-  if (settings.bounces == 0) return weights;
   Batch1 choice{};  // 0 is always below the share
   if (settings.bounce_share < 1) choice = draw(samples, Dimension::bounces);
   for (size_t k = 0; k < size_t(samples.count); ++k)
@@ -101,8 +102,8 @@ void see_ground(const Scene& scene, const GroundPoint& point, const GroundLight&
   for (Color& bounce : out.indirect.bounce) bounce *= covered * passed;
 }
 
-/// What is seen through the gaps of the first layer of sheer cloth; `eye` the camera ray as it is traced, `follow` the
-/// weight of indirect light.
+/// What is seen through the gaps of the first layer of sheer cloth; `eye` the camera ray as it is traced, `follow`
+/// the weight of indirect light.
 void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, const Ray& eye,
                   std::uint32_t seed, const SampleId& id, double follow, PathScratch& scratch, CameraSample& out) {
   const YTurn object = point.object;
@@ -119,8 +120,11 @@ void look_through(const Scene& scene, const LightSettings& settings, ClothPoint 
     const SequenceBatch numbers = alone(seed, id, -layer);
     double choice = scene.has_maps ? draw(numbers.sequence(0), Dimension::pattern, id.index) : 0;
     const std::optional<Vertex> next =
-        meet(scene, ray, object, scene.ground ? &*scene.ground : nullptr,
-             [&](const Hit& hit) { return seen_cloth(scene, hit, eye, object, choice); });
+        meet(scene, ray, object, scene.ground ? &*scene.ground : nullptr, [&](const Hit& hit) {
+          ClothPoint met;
+          seen_cloth(scene, hit, eye, object, choice, met);
+          return met;
+        });
     if (!next) return see_backdrop(scene, direction, passed, out);
     BounceLight indirect;
     if (const auto* ground = std::get_if<GroundPoint>(&*next)) {
@@ -154,7 +158,7 @@ void light_ground(const Scene& scene, const LightSettings& settings, std::uint32
   light_on_ground(scene, points, seen.numbers, scratch.counts, light.data());
   std::array<BounceLight, batch_size> indirect;
   Batch1 weights{};
-  if (scene.ground->blocks_light()) weights = follow_weights(settings, seen.numbers);
+  if (scene.ground->blocks_light() && settings.bounces > 0) weights = follow_weights(settings, seen.numbers);
   indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
   for (size_t n = 0; n < seen.count(); ++n) {
     const size_t k = seen.sample[n];
@@ -168,9 +172,13 @@ void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_
   const std::span<const ClothPoint> points{seen.points.data(), seen.count()};
   std::array<LobeLight, batch_size> direct;
   direct_light(scene, points, settings, seen.numbers, scratch, direct.data());
-  std::array<BounceLight, batch_size> indirect;
-  const Batch1 weights = follow_weights(settings, seen.numbers);
-  indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
+  Batch1 weights{};
+  if (settings.bounces > 0) {
+    std::array<BounceLight, batch_size> indirect;
+    weights = follow_weights(settings, seen.numbers);
+    indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
+    for (size_t n = 0; n < seen.count(); ++n) out[seen.sample[n]].indirect = indirect[n];
+  }
   for (size_t n = 0; n < seen.count(); ++n) {
     const size_t k = seen.sample[n];
     const ClothPoint& point = points[n];
@@ -185,7 +193,6 @@ void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_
     sample.back = scene.back && point.on_back;
     sample.alpha = 1;
     if (keep(direct[n].total(), scratch.counts)) sample.direct = direct[n];
-    sample.indirect = indirect[n];
     if (scene.has_gaps && passing(point.gap, point.yarn) > 0)
       look_through(scene, settings, point, traced[k], seed, samples[k], weights[n], scratch, sample);
   }
@@ -218,8 +225,8 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
   if (scene.has_maps) pattern = draw(all, Dimension::pattern);
 
   // What meets the same kind of surface moves together.
-  Seen<ClothPoint> cloth;
-  Seen<GroundPoint> ground;
+  Seen<ClothPoint> cloth{scratch.cloth, {}};
+  Seen<GroundPoint> ground{scratch.ground, {}};
   for (size_t k = 0; k < samples.size(); ++k) {
     out[k] = {};
     const YTurn object = scene.shutter ? scratch.moving.object[k] : YTurn();
@@ -227,12 +234,12 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
       const float t_max = !found[k] ? far_away : scene.ground->blocks_light() ? hits[k].t : 0;
       const std::optional<GroundPoint> point = met_ground(scene, *scene.ground, traced[k], object, t_max);
       if (point && ground_opacity(*scene.ground, point->position) > 0) {
-        ground.add(*point, k, all);
+        ground.add(k, all) = *point;
         continue;
       }
     }
     if (found[k])
-      cloth.add(seen_cloth(scene, hits[k], traced[k], object, pattern[k]), k, all);
+      seen_cloth(scene, hits[k], traced[k], object, pattern[k], cloth.add(k, all));
     else
       see_backdrop(scene, rays[k].direction, 1, out[k]);
   }

@@ -15,18 +15,17 @@ Camera turned_camera(const Camera& camera, const YTurn& object) {
 }
 }  // namespace
 
-ClothPoint seen_cloth(const Scene& scene, const Hit& hit, const Ray& eye, const YTurn& object, double& choice) {
-  ClothPoint point = cloth_point(scene, hit, eye.direction);
+void seen_cloth(const Scene& scene, const Hit& hit, const Ray& eye, const YTurn& object, double& choice,
+                ClothPoint& point) {
+  point = cloth_point(scene, hit, eye.direction);
   const bool near = may_show_yarns(scene, hit.t);
   if (scene.has_maps || near) {
-    const Footprint pixel = scene.shutter
-                                ? camera_footprint(turned_camera(scene.camera, object), eye, point.surface)
-                                : camera_footprint(scene.camera, eye, point.surface);
+    const Footprint pixel = scene.shutter ? camera_footprint(turned_camera(scene.camera, object), eye, point.surface)
+                                          : camera_footprint(scene.camera, eye, point.surface);
     if (scene.has_maps) apply_maps(scene, eye.direction, pixel, choice, point);
     if (near) place_yarn(scene, pixel, point);
   }
   if (scene.shutter) turn_point(point, object);
-  return point;
 }
 
 ClothPoint bounced_cloth(const Scene& scene, const Hit& hit, const Ray& ray, const YTurn& object, double& choice) {

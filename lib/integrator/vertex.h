@@ -10,7 +10,8 @@ using Vertex = std::variant<ClothPoint, GroundPoint>;
 
 /// The cloth as a camera ray met it, pixel by pixel: `eye` is the ray as it left the camera, as it is traced. `object`
 /// says how the object stands under a shutter; `choice` is the random number of patterns (apply_maps).
-ClothPoint seen_cloth(const Scene& scene, const Hit& hit, const Ray& eye, const YTurn& object, double& choice);
+void seen_cloth(const Scene& scene, const Hit& hit, const Ray& eye, const YTurn& object, double& choice,
+                ClothPoint& point);
 
 /// The cloth as a ray met it that has scattered before: textures are looked up widely.
 ClothPoint bounced_cloth(const Scene& scene, const Hit& hit, const Ray& ray, const YTurn& object, double& choice);
