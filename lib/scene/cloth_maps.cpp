@@ -62,7 +62,7 @@ float warp_angle_at(const FabricMaps& maps, const Fabric& fabric, const Vec2& uv
   return std::atan2(direction[1], direction[0]);
 }
 
-float pattern_share(const SideMaps::Pattern& pattern, const Vec2& uv, const Footprint& footprint) {
+float pattern_share(const PatternMaps& pattern, const Vec2& uv, const Footprint& footprint) {
   float share = pattern.share;
   if (pattern.mask) pattern.mask->look_up(uv, footprint, &share);
   return share;

@@ -20,16 +20,18 @@ struct FabricMaps {
   bool any_numbers() const;  ///< some of FamilyValues
 };
 
-/// The textures of one side of the cloth, and the look that its pattern weaves in.
+/// The look that a pattern weaves in.
+struct PatternMaps {
+  Fabric fabric;
+  FabricMaps maps;
+  FabricMaps::Map mask;  ///< null: `share` everywhere
+  float share = 0;       ///< 0 to 1, of the pattern's look
+};
+
+/// The textures of one side of the cloth, and its pattern.
 struct SideMaps {
   FabricMaps own;
-  struct Pattern {
-    Fabric fabric;
-    FabricMaps maps;
-    FabricMaps::Map mask;  ///< null: `share` everywhere
-    float share = 0;       ///< 0 to 1, of the pattern's look
-  };
-  std::optional<Pattern> pattern;
+  std::optional<PatternMaps> pattern;
 };
 
 PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& footprint);
@@ -38,7 +40,7 @@ PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& f
 float warp_angle_at(const FabricMaps& maps, const Fabric& fabric, const Vec2& uv, const Footprint& footprint);
 
 /// Share of the pattern's look there, 0 to 1.
-float pattern_share(const SideMaps::Pattern& pattern, const Vec2& uv, const Footprint& footprint);
+float pattern_share(const PatternMaps& pattern, const Vec2& uv, const Footprint& footprint);
 
 /// Share of the area without threads there: of the look and of its pattern's by their shares.
 float gap_at(const SideMaps& side, const Fabric& fabric, const Vec2& uv, const Footprint& footprint);

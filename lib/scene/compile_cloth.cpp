@@ -218,7 +218,7 @@ CompiledSide compile_side(const Look& look, const ColorManager& colors, const Fa
   side.fabric = compile_mapped(look, colors, parts, turn, maps.own, side.warnings);
   if (!look.pattern_look.empty() && (look.pattern_mask > 0 || look.textures.contains("pattern.mask"))) {
     maps.pattern.emplace();
-    SideMaps::Pattern& pattern = *maps.pattern;
+    PatternMaps& pattern = *maps.pattern;
     pattern.fabric = compile_mapped(read_pattern(look), colors, parts, turn, pattern.maps, side.warnings);
     pattern.share = look.pattern_mask;
     pattern.mask = MapReader{look, colors, side.warnings}.number("pattern.mask");
