@@ -21,10 +21,6 @@ std::string cost_text(const PlannedEffect& planned) {
                     : fmt::format("saves {:.0f} %", 100 * planned.cost);
 }
 
-std::string percent_text(const Interval& i) {
-  return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * i.value, 100 * i.low, 100 * i.high);
-}
-
 }  // namespace
 
 std::string plan_text(const Plan& plan) {

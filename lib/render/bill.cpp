@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/parallel.h"
 
@@ -18,7 +19,13 @@ class Biller {
     grid_.rows = std::clamp(int(std::lround(double(grid_.columns) * scene.camera.height / scene.camera.width)), 1,
                             scene.camera.height);
     grid_.samples = settings.samples;
-    trace_picture(scene, light, seed, grid_, threads);  // warms caches: the first of equals would seem dearer
+    // Also warms caches: the first of equals would seem dearer.
+    for (auto& [effect, part] : parts_) less_[effect] = {grid_, std::vector<FilmPixel>(size_t(grid_.pixels())), {}};
+    trace_grid(scene, light, seed, grid_, threads, [&](int i, std::span<const CameraSample> samples) {
+      for (const auto& [effect, part] : parts_)
+        for (const CameraSample& s : samples)
+          add_sample(less_.at(effect).pixels[size_t(i)], s.total() - part(s.direct), s.alpha, 0x1p-33);
+    });
     whole_ = trace_picture(scene, light, seed, grid_, threads);
     noise_ = relative_variance(whole_);
   }
@@ -28,15 +35,10 @@ class Biller {
   }
   Image shown() const { return shown(whole_); }
 
-  /// The picture less what `part` of every sample brings.
-  BillItem part_of_model(Effect effect, const std::function<Color(const LobeLight&)>& part) const {
-    GridPicture less = whole_;
-    for (FilmPixel& pixel : less.pixels) pixel = {};
-    trace_grid(scene_, light_, seed_, grid_, threads_, [&](int i, std::span<const CameraSample> samples) {
-      for (const CameraSample& s : samples)
-        add_sample(less.pixels[size_t(i)], s.total() - part(s.direct), s.alpha, 0x1p-33);
-    });
-    return billed(effect, less);
+  /// The picture less what a part of the cloth model brings to it; nothing for a part that is not billed alone.
+  std::optional<BillItem> part_of_model(Effect effect) const {
+    const auto less = less_.find(effect);
+    return less == less_.end() ? std::nullopt : std::optional(billed(effect, less->second));
   }
 
   BillItem removable(Effect effect) const {
@@ -65,6 +67,12 @@ class Biller {
     return item;
   }
 
+  // The isotropic part of the volume is billed with the directed one: the kernel adds them up.
+  const std::map<Effect, Color (*)(const LobeLight&)> parts_{
+      {Effect::families, [](const LobeLight& l) { return l.surface[1] + l.volume[1]; }},
+      {Effect::surface_lobe, [](const LobeLight& l) { return l.surface[0] + l.surface[1]; }},
+      {Effect::directed_volume, [](const LobeLight& l) { return l.volume[0] + l.volume[1]; }}};
+  std::map<Effect, GridPicture> less_;
   const Scene& scene_;
   LightSettings light_;
   const BillSettings& settings_;
@@ -88,27 +96,10 @@ Bill make_bill(const Scene& scene, const Plan& plan, const LightSettings& light,
   bill.picture = biller.shown();
   for (const PlannedEffect& planned : plan.effects) {
     if (!planned.on) continue;
-    switch (planned.effect) {
-      case Effect::families:
-        bill.items.push_back(
-            biller.part_of_model(planned.effect, [](const LobeLight& l) { return l.surface[1] + l.volume[1]; }));
-        break;
-      case Effect::surface_lobe:
-        bill.items.push_back(
-            biller.part_of_model(planned.effect, [](const LobeLight& l) { return l.surface[0] + l.surface[1]; }));
-        break;
-      case Effect::directed_volume:
-        bill.items.push_back(
-            biller.part_of_model(planned.effect, [](const LobeLight& l) { return l.volume[0] + l.volume[1]; }));
-        break;
-      case Effect::isotropic_volume:  // billed with the directed part: the kernel adds them up
-      case Effect::tangent_curve:
-      case Effect::references:
-      case Effect::subdivision:
-        break;
-      default:
-        bill.items.push_back(biller.removable(planned.effect));
-    }
+    if (std::optional<BillItem> part = biller.part_of_model(planned.effect))
+      bill.items.push_back(std::move(*part));
+    else if (effect_info(planned.effect).switchable && planned.effect != Effect::references)
+      bill.items.push_back(biller.removable(planned.effect));
   }
   bill.cpu_seconds = cpu_seconds() - start;
   return bill;

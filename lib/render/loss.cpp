@@ -1,5 +1,7 @@
 #include "render/loss.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +58,10 @@ Interval light_share(std::span<const PixelLoss> pixels) {
   }
   const double half = normal_95 * std::sqrt(squares) / total;
   return {share, share - half, share + half};
+}
+
+std::string percent_text(const Interval& share) {
+  return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * share.value, 100 * share.low, 100 * share.high);
 }
 
 }  // namespace sateen

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <span>
+#include <string>
 
 #include "film/error.h"
 
@@ -19,5 +20,8 @@ Interval picture_loss(std::span<const PixelLoss> pixels);
 
 /// Share of the picture's light that would be lost, mean of the channels; its interval in the same way.
 Interval light_share(std::span<const PixelLoss> pixels);
+
+/// "15 % (12.4 to 17.5)" of an interval of shares.
+std::string percent_text(const Interval& share);
 
 }  // namespace sateen

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "mesh/convexity.h"
+#include "render/loss.h"
 #include "render/plan_parts.h"
 #include "render/plan_pilot.h"
 #include "scene/near_weave.h"
@@ -17,9 +18,6 @@ namespace {
 
 std::string percent(double share) {
   return fmt::format("{:.3g} %", 100 * share);
-}
-std::string percent(const Interval& i) {
-  return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * i.value, 100 * i.low, 100 * i.high);
 }
 
 std::string both(const char* name, float warp, float weft) {
@@ -105,44 +103,44 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
   const bool off = switches.named_off(p.effect) ||
                    (switches.rest == EffectSwitches::Rest::none && !switches.named_on(p.effect) && !switches.bounces);
   const bool on = switches.named_on(p.effect) || switches.rest == EffectSwitches::Rest::all;
-  if (form == MeshForm::folded) {
-    p.share = pilot.indirect;
-    p.loss = pilot.lost_after[0];
-  }
+  // What the bounces that are followed leave out.
+  const auto settled = [&] {
+    if (form == MeshForm::folded) {
+      p.share = pilot.indirect;
+      if (out.count < tracked_bounces) p.loss = pilot.lost_after[size_t(out.count)];
+    }
+    return out;
+  };
   if (off || switches.bounces || on) {
     out.count = off ? 0 : switches.bounces.value_or(every_bounce);
     p.on = out.count > 0;
     p.basis = Basis::asked;
     p.reason = !p.on ? "switched off" : switches.bounces ? fmt::format("{} bounces", out.count) : "every bounce";
-    if (form == MeshForm::folded) p.reason += fmt::format("; it adds {} of the light", percent(pilot.indirect));
-    return out;
+    if (form == MeshForm::folded) p.reason += fmt::format("; it adds {} of the light", percent_text(pilot.indirect));
+    return settled();
   }
   if (form != MeshForm::folded) {
     p.basis = Basis::data;
     p.reason = form_text(form) + ": light that leaves it does not come back";
-    return out;
+    return settled();
   }
   p.basis = Basis::pilot;
   const double allowed = plan_allowance * error;
   while (out.count < tracked_bounces && pilot.lost_after[size_t(out.count)].high > allowed) ++out.count;
   const bool all = out.count == tracked_bounces;
   p.on = out.count > 0;
-  const std::string adds = fmt::format("adds {} of the light", percent(pilot.indirect));
+  const std::string adds = fmt::format("adds {} of the light", percent_text(pilot.indirect));
   if (!p.on) {
-    p.reason = fmt::format("{}; leaving it out costs E {}, and {} are allowed", adds, percent(pilot.lost_after[0]),
-                           percent(allowed));
+    p.reason = fmt::format("{}; leaving it out costs E {}, and {} are allowed", adds,
+                           percent_text(pilot.lost_after[0]), percent(allowed));
   } else {
-    p.reason = fmt::format("{}; without it E would be off by {}", adds, percent(pilot.lost_after[0]));
-    if (!all) {
-      p.loss = pilot.lost_after[size_t(out.count)];
-      p.reason += fmt::format(", after {} bounce{} by {}", out.count, out.count == 1 ? "" : "s", percent(*p.loss));
-    }
+    p.reason = fmt::format("{}; without it E would be off by {}", adds, percent_text(pilot.lost_after[0]));
+    if (!all)
+      p.reason += fmt::format(", after {} bounce{} by {}", out.count, out.count == 1 ? "" : "s",
+                              percent_text(pilot.lost_after[size_t(out.count)]));
   }
-  if (all) {
-    out.count = every_bounce;
-    p.loss.reset();
-  }
-  return out;
+  if (all) out.count = every_bounce;
+  return settled();
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Variant with_effect(const Scene& whole, Plan plan, Effect effect, const LightSet
 Verdict judge(const Plan& plan, const PlannedEffect& planned, const Interval& loss) {
   Verdict verdict{planned.effect, true, loss, Verdict::Outcome::right, {}};
   if (planned.basis == Basis::asked)
-    verdict.note = "switched off by the user";
+    verdict.note = "as the user asked";
   else if (loss.low > plan.error)
     verdict.outcome = Verdict::Outcome::wrong;
   else if (loss.high > plan.error)

@@ -4,12 +4,6 @@
 
 namespace sateen {
 
-namespace {
-std::string percent_text(const Interval& i) {
-  return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * i.value, 100 * i.low, 100 * i.high);
-}
-}  // namespace
-
 Table bill_table(const Bill& bill) {
   Table table{{"effect", "time", "variance", "E without it (95 % interval)", "largest difference", ""}, {}};
   const auto share = [](const std::optional<double>& s) { return s ? fmt::format("{:.1f} %", 100 * *s) : "-"; };

@@ -82,20 +82,6 @@ void expect_plain_answer(const Scene& scene, const std::vector<int>& bounces, co
   }
 }
 
-Look bright(const std::string& name) {
-  Look look = shipped_look(name);
-  for (ThreadFamily* f : {&look.warp, &look.weft}) {
-    f->color.reset();
-    f->A.value = Color(0.5f, 0.35f, 0.2f);
-  }
-  return look;
-}
-
-Environment soft_map() {
-  return map_of(16, 8,
-                [](int x, int y) { return Color(y < 4 ? 0.3f + 0.2f * float(x % 5) : 0.1f, 0.4f, 0.1f * float(y)); });
-}
-
 TEST(Bounces, AgreeWithAPlainPathTracer) {
   expect_plain_answer(corner(fabric_of(bright("silk_crepe_de_chine")), soft_map()), {0, 1, 2, 6}, "crepe");
 }

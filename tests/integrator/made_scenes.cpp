@@ -101,4 +101,18 @@ std::vector<NamedSettings> all_settings(int bounces) {
   return all;
 }
 
+Look bright(const std::string& name) {
+  Look look = shipped_look(name);
+  for (ThreadFamily* f : {&look.warp, &look.weft}) {
+    f->color.reset();
+    f->A.value = Color(0.5f, 0.35f, 0.2f);
+  }
+  return look;
+}
+
+Environment soft_map() {
+  return map_of(16, 8,
+                [](int x, int y) { return Color(y < 4 ? 0.3f + 0.2f * float(x % 5) : 0.1f, 0.4f, 0.1f * float(y)); });
+}
+
 }  // namespace sateen_test

@@ -13,6 +13,8 @@ namespace sateen_test {
 /// A look of looks/ or any other, compiled once a process in its own colour space.
 const sateen::Look& shipped_look(const std::string& name);
 sateen::Fabric fabric_of(const sateen::Look& look);
+/// A shipped look with volume colours so bright that much light bounces.
+sateen::Look bright(const std::string& name);
 
 /// A built-in shape at a subdivision level.
 sateen::Mesh shape(const std::string& name, int level);
@@ -27,6 +29,8 @@ sateen::Mesh floor_quad(float size = 1);
 sateen::Environment map_of(int width, int height, const std::function<sateen::Color(int, int)>& color,
                            float rotation = 0);
 sateen::Environment constant_map(float value = 1);
+/// Coloured, brighter above, without small lights.
+sateen::Environment soft_map();
 
 sateen::Scene make_scene(sateen::Mesh mesh, sateen::Fabric front, sateen::Environment environment);
 

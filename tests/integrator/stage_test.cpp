@@ -32,20 +32,6 @@ void put_ground(Scene& scene, GroundKind kind, const Color& color, float height)
   scene.ground = compile_ground({kind, height, color}, *scene.mesh, scene.camera, scene.environment);
 }
 
-Look bright(const std::string& name) {
-  Look look = shipped_look(name);
-  for (ThreadFamily* f : {&look.warp, &look.weft}) {
-    f->color.reset();
-    f->A.value = Color(0.5f, 0.35f, 0.2f);
-  }
-  return look;
-}
-
-Environment soft_map() {
-  return map_of(16, 8,
-                [](int x, int y) { return Color(y < 4 ? 0.3f + 0.2f * float(x % 5) : 0.1f, 0.4f, 0.1f * float(y)); });
-}
-
 /// Nothing but ground, seen at a slant.
 Scene bare(GroundKind kind, const Color& color, Environment map) {
   Scene scene = make_scene(Mesh(), fabric_of(bright("silk_crepe_de_chine")), std::move(map));

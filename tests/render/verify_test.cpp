@@ -113,8 +113,8 @@ TEST(Bill, AgreesWithThePlanAboutInterreflection) {
   const SceneSettings settings = settings_of({"champagne_silk_satin", "drape", "studio_softboxes"}, 192, 108);
   Scene scene = scene_of(settings);
   LightSettings light;
+  const Interval planned = *plan_of(settings, scene, "-interreflection", 0.02).of(Effect::interreflection).loss;
   const Plan plan = plan_of(settings, scene, "+interreflection", 0.02);
-  const Interval planned = *plan.of(Effect::interreflection).loss;
   apply_plan(plan, scene, light);
   const ColorManager colors("built-in");
   BillSettings how;
