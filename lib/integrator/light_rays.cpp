@@ -9,6 +9,7 @@ namespace sateen {
 namespace {
 
 constexpr int most_candidates = 64;
+constexpr float least_open = 0.05f;  // what a direction that looks closed is worth: measured, 0.02 to 0.1 are alike
 
 float brightness(const Color& c) {
   return mean_component(c);
@@ -65,10 +66,12 @@ void sample_each(const Environment& environment, FabricSampler sampler, const Se
 }
 
 /// Resampled importance sampling (Talbot et al. 2005) over `count` candidates of the table and `count` of the
-/// compensated map, target = table density times radiance, balance weights (cloth-model.md section 6). Unbiased:
-/// the table's floor keeps the target positive wherever the integrand is.
-void resample(const Environment& environment, const ClothPoint& point, const SamplerView& view, Sequence sequence,
+/// compensated map, target = table density times radiance times how open the direction is, balance weights
+/// (cloth-model.md section 6). Unbiased: the table's floor and `least_open` keep the target positive wherever the
+/// integrand is.
+void resample(const Scene& scene, const ClothPoint& point, const SamplerView& view, Sequence sequence,
               std::uint32_t index, int count, LightRays& out) {
+  const Environment& environment = scene.environment;
   struct Candidate {
     Vec3 wi, world;
     const Environment::Texel* texel;
@@ -98,11 +101,13 @@ void resample(const Environment& environment, const ClothPoint& point, const Sam
     for (size_t j = 0; j < size_t(candidates.count); ++j)
       kept[n++] = {*drawn[j].wi, drawn[j].world, drawn[j].texel, 0, 0};
   }
+  const OpenDirections* const open = open_directions(scene, point);
   float sum = 0;
   for (size_t i = 0; i < n; ++i) {
     Candidate& c = kept[i];
     const float p_table = table_pdf(view.table, c.wi);
     c.target = p_table * brightness(c.texel->radiance);
+    if (open) c.target *= std::max(openness_along(scene, point, *open, c.world), least_open);
     const float both = p_table + c.texel->pdf_compensated;
     if (c.target > 0) sum += c.target / (float(count) * both);
     c.running = sum;
@@ -195,8 +200,7 @@ void choose_light_rays(const Scene& scene, std::span<const ClothPoint> points, c
       return batch.by_both(sampler, EnvironmentDensity::compensated);
     case Strategy::resampled:
       for (size_t k = 0; k < points.size(); ++k)
-        resample(scene.environment, points[k], views[k], samples.sequence(int(k)), samples.index[k],
-                 settings.candidates, out[k]);
+        resample(scene, points[k], views[k], samples.sequence(int(k)), samples.index[k], settings.candidates, out[k]);
   }
 }
 

@@ -174,6 +174,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   settle_weave(settings, scene, report);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   set_stage(scene, settings.stage, settings.threads);
+  renew_openness(scene);
   report.environment_hash = hash_environment(scene.environment);
   report.metered_ev = metered_exposure_ev(scene.environment);
   return scene;

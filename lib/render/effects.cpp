@@ -152,6 +152,7 @@ void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
       break;
     case Effect::self_shadowing:
       scene.self_shadowing = false;
+      renew_openness(scene);
       break;
     case Effect::interreflection:
       light.bounces = 0;
@@ -160,12 +161,14 @@ void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
       scene.backdrop = Backdrop::none;
       break;
     case Effect::ground:
+      if (solid_ground(scene)) renew_openness(scene);
       scene.ground.reset();
       break;
     case Effect::depth_of_field:
       scene.lens.reset();
       break;
     case Effect::motion_blur:
+      if (scene.shutter) renew_openness(scene);
       scene.shutter.reset();
       break;
     case Effect::references:  // laid over the picture

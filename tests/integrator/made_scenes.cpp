@@ -73,6 +73,7 @@ Scene make_scene(Mesh mesh, Fabric front, Environment environment) {
   scene.front = std::move(front);
   scene.environment = std::move(environment);
   scene.has_gaps = scene.front.gap > 0;
+  renew_openness(scene);
   return scene;
 }
 
