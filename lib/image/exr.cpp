@@ -9,6 +9,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/parallel.h"
 #include "image/file.h"
 
 namespace sateen {
@@ -185,6 +187,12 @@ void verify(const fs::path& path, const std::vector<ImageLayer>& layers, const P
           fmt::format("the pixels of layer \"{}\" read back differ from those written", layers[l].name));
 }
 }  // namespace
+
+void set_exr_threads(int threads) {
+  // What is packed by the caller alone needs no pool.
+  const int count = thread_count(threads);
+  Imf::setGlobalThreadCount(count > 1 ? count : 0);
+}
 
 long long write_exr(const fs::path& path, const std::vector<ImageLayer>& layers, const Attributes& attributes,
                     const ColorManager::Chromaticities& chromaticities) {

@@ -15,6 +15,7 @@
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
+#include "render/exposure.h"
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
 #include "scene/near_weave.h"
@@ -140,6 +141,8 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
     options.rotation_deg = settings.environment_rotation_deg;
     options.exposure_ev = settings.environment_ev;
     Environment map = read_environment(settings.environment, colors, options);
+    report.environment_hash = hash_environment(map);
+    report.metered_ev = metered_towards(map, settings.camera.azimuth_deg, settings.environment_ev);
     report.environment_seconds = now() - start;
     return map;
   });
@@ -174,8 +177,6 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   settle_weave(settings, scene, report);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   set_stage(scene, settings.stage, settings.threads);
-  report.environment_hash = hash_environment(scene.environment);
-  report.metered_ev = metered_exposure_ev(scene.environment);
   return scene;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/parallel.h"
 #include "film/develop.h"
 #include "look/json.h"
 
@@ -167,6 +168,14 @@ WrittenPicture write_picture(const fs::path& path, const PictureContent& content
   std::error_code error;
   const auto bytes = fs::file_size(path, error);
   written.bytes = error ? 0 : (long long)(bytes);
+  return written;
+}
+
+std::vector<WrittenPicture> write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
+                                           const ColorManager& colors, int threads) {
+  std::vector<WrittenPicture> written(paths.size());
+  parallel_for(int(paths.size()), threads,
+               [&](int i) { written[size_t(i)] = write_picture(paths[size_t(i)], content, colors); });
   return written;
 }
 

@@ -67,5 +67,8 @@ struct WrittenPicture {
 };
 WrittenPicture write_picture(const std::filesystem::path& path, const PictureContent& content,
                              const ColorManager& colors);
+/// Several of them, side by side, in the order of `paths`. Where one fails others may not be written.
+std::vector<WrittenPicture> write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
+                                           const ColorManager& colors, int threads);
 
 }  // namespace sateen

@@ -90,6 +90,16 @@ PlannedEffect plan_self_shadowing(MeshForm form, const EffectSwitches& switches)
   return planned;
 }
 
+std::string bounces_text(int count) {
+  return fmt::format("{} bounce{}", count, count == 1 ? "" : "s");
+}
+
+/// How many bounces the pilot follows: where their number is given, one more tells what comes after.
+int pilot_bounces(MeshForm form, const EffectSwitches& switches) {
+  if (form != MeshForm::folded) return 0;
+  return switches.bounces ? std::min(*switches.bounces + 1, every_bounce) : every_bounce;
+}
+
 struct Bounces {
   PlannedEffect planned;
   int count = 0;
@@ -105,7 +115,7 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
   const bool on = switches.named_on(p.effect) || switches.rest == EffectSwitches::Rest::all;
   // What the bounces that are followed leave out.
   const auto settled = [&] {
-    if (form == MeshForm::folded) {
+    if (form == MeshForm::folded && pilot.indirect) {
       p.share = pilot.indirect;
       if (out.count < tracked_bounces) p.loss = pilot.lost_after[size_t(out.count)];
     }
@@ -115,8 +125,13 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
     out.count = off ? 0 : switches.bounces.value_or(every_bounce);
     p.on = out.count > 0;
     p.basis = Basis::asked;
-    p.reason = !p.on ? "switched off" : switches.bounces ? fmt::format("{} bounces", out.count) : "every bounce";
-    if (form == MeshForm::folded) p.reason += fmt::format("; it adds {} of the light", percent_text(pilot.indirect));
+    p.reason = !p.on ? "switched off" : switches.bounces ? bounces_text(out.count) : "every bounce";
+    if (form == MeshForm::folded && pilot.indirect)
+      p.reason += fmt::format("; {} {} of the light",
+                              p.on  ? "it adds"
+                              : off ? "it would add"
+                                    : "the first bounce would add",
+                              percent_text(*pilot.indirect));
     return settled();
   }
   if (form != MeshForm::folded) {
@@ -129,14 +144,14 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
   while (out.count < tracked_bounces && pilot.lost_after[size_t(out.count)].high > allowed) ++out.count;
   const bool all = out.count == tracked_bounces;
   p.on = out.count > 0;
-  const std::string adds = fmt::format("adds {} of the light", percent_text(pilot.indirect));
+  const std::string adds = fmt::format("adds {} of the light", percent_text(pilot.indirect.value_or(Interval())));
   if (!p.on) {
     p.reason = fmt::format("{}; leaving it out costs E {}, and {} are allowed", adds,
                            percent_text(pilot.lost_after[0]), percent(allowed));
   } else {
     p.reason = fmt::format("{}; without it E would be off by {}", adds, percent_text(pilot.lost_after[0]));
     if (!all)
-      p.reason += fmt::format(", after {} bounce{} by {}", out.count, out.count == 1 ? "" : "s",
+      p.reason += fmt::format(", after {} by {}", bounces_text(out.count),
                               percent_text(pilot.lost_after[size_t(out.count)]));
   }
   if (all) out.count = every_bounce;
@@ -166,14 +181,15 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
 }
 
 Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switches, double error,
-               const LightSettings& light, std::uint32_t seed, int threads) {
+               const LightSettings& light, std::uint32_t seed, int threads, bool with_pilot) {
   Plan plan;
   plan.error_asked = error > 0;
   plan.error = plan.error_asked ? error : default_plan_error;
   const MeshForm form = mesh_form(*scene.mesh);
   // A floor sends light back to cloth of any form.
   const MeshForm lit_form = solid_ground(scene) ? MeshForm::folded : form;
-  const PlanPilot pilot = run_plan_pilot(scene, light, lit_form == MeshForm::folded, seed, threads);
+  PlanPilot pilot;
+  if (with_pilot) pilot = run_plan_pilot(scene, light, pilot_bounces(lit_form, switches), seed, threads);
   plan.effects = plan_model(look, pilot);
 
   PlannedEffect back =
