@@ -33,6 +33,7 @@ int run_merge(const std::vector<std::string>& words) {
   if (outputs.empty() && checkpoint.empty())
     throw InputError("merge has nothing to write", "add -o FILE.exr or --checkpoint FILE");
   for (const std::string& output : outputs) check_picture_path(output);
+  if (!checkpoint.empty()) check_can_write(checkpoint);
 
   const Checkpoint sum = merge_checkpoints({inputs.begin(), inputs.end()});
   RenderFlags flags;

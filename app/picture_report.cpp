@@ -143,6 +143,11 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
   if (!job.strategy_reason.empty()) print_note(fmt::format("light sampled by {}", job.strategy_reason));
   const PlannedEffect& bounces = job.plan.of(Effect::interreflection);
   print_note(fmt::format("interreflection {}: {}", bounces.on ? "on" : "off", bounces.reason));
+  // What somebody may look for in the picture and not find.
+  for (const PlannedEffect& planned : job.plan.effects)
+    if (!planned.on && !planned.missing && planned.effect != Effect::interreflection &&
+        effect_info(planned.effect).switchable)
+      print_note(fmt::format("{} off: {}", effect_info(planned.effect).name, planned.reason));
   print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
                            job.effects, job.render.seed, thread_count(job.render.threads)));
   print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",

@@ -28,6 +28,8 @@ int run_plan(const std::vector<std::string>& words) {
   if (!command.parse(words)) return done;
   constexpr int default_spp = 64;
   settle_picture_flags(command, flags, default_spp);
+  for (const std::string& output : flags.outputs) check_picture_path(output, false);
+  if (!flags.stats.empty()) check_can_write(flags.stats);
   const Assembly assembly = assemble_picture(flags, "plan " + shell_line(words));
   const SceneReport& report = assembly.report;
   const PictureJob& job = assembly.job;

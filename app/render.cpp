@@ -152,7 +152,8 @@ bool read_render_flags(const std::vector<std::string>& words, RenderFlags& flags
     throw InputError(fmt::format("--samples-from is {}, expected a multiple of {}", flags.first_sample, replicates));
   if (command.given("--samples-from")) {
     if (flags.adaptive_given && p.render.adaptive)
-      throw InputError("--samples-from wants the same samples everywhere, and --adaptive deals them out by error");
+      throw InputError("--samples-from wants the same samples everywhere, and --adaptive deals them out by error",
+                       "leave --adaptive out");
     p.render.adaptive = false;
   }
   return true;
@@ -165,15 +166,12 @@ int run_render(const std::vector<std::string>& words) {
   std::set<std::string> names;
   for (const std::string& output : flags.outputs) {
     check_picture_path(output, !flags.dry_run);
-    if (!names.insert(output).second) throw InputError(fmt::format("--output {} is given twice", output));
+    if (!names.insert(output).second)
+      throw InputError(fmt::format("--output {} is given twice", output), "leave one of them out");
   }
-  if (const auto folder = std::filesystem::path(all.checkpoint).parent_path(); !folder.empty() && !flags.dry_run) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw OperationError(
-          fmt::format("{} cannot be made ({}); nothing was rendered", folder.string(), error.message()));
-  }
+  for (const std::string& other : {all.checkpoint, flags.stats})
+    if (!other.empty()) check_can_write(other, !flags.dry_run);
+  if (!flags.dry_run) check_memory(flags);
   Checkpoint begun;
   if (!all.resume.empty()) {
     begun = read_checkpoint(all.resume);

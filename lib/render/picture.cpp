@@ -113,6 +113,10 @@ void check_picture_path(const fs::path& path, bool try_it) {
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw InputError(fmt::format("{}: pictures of kind .{} are not written", shown_name(path.string()), extension),
                      suggestion(extension, known));
+  check_can_write(path, try_it);
+}
+
+void check_can_write(const fs::path& path, bool try_it) {
   const auto refuse = [&](const std::string& why) {
     throw OperationError(fmt::format("{} cannot be written ({}); nothing was rendered", path.string(), why));
   };

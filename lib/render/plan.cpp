@@ -21,7 +21,8 @@ std::string percent(double share) {
 }
 
 std::string both(const char* name, float warp, float weft) {
-  return warp == weft ? fmt::format("{} {}", name, warp) : fmt::format("{} {} and {}", name, warp, weft);
+  return warp == weft ? fmt::format("{} {} in warp and weft", name, warp)
+                      : fmt::format("{} {} in the warp, {} in the weft", name, warp, weft);
 }
 
 /// What a look's own numbers decide.
@@ -40,20 +41,22 @@ std::vector<PlannedEffect> plan_model(const Look& look, const PlanPilot& pilot) 
     return std::any_of(f.offsets_deg.begin(), f.offsets_deg.end(), [&](float o) { return o != f.offsets_deg[0]; });
   });
   std::vector<PlannedEffect> all;
-  all.push_back(
-      of_model(Effect::families, has_warp && has_weft,
-               has_warp && has_weft ? both("coverage", warp.coverage, weft.coverage) : "one family covers nothing",
-               pilot.weft));
+  all.push_back(of_model(Effect::families, has_warp && has_weft,
+                         has_warp && has_weft
+                             ? both("coverage", warp.coverage, weft.coverage) + "; the light is the weft's"
+                             : "one family covers nothing",
+                         pilot.weft));
   all.push_back(of_model(Effect::surface_lobe, surface,
                          surface ? both("eta", warp.eta, weft.eta) : "eta is 1: nothing is reflected",
                          pilot.surface));
   all.push_back(of_model(Effect::directed_volume, directed,
                          directed ? both("k_d", warp.k_d, weft.k_d) : "k_d is 1: all of it is even", pilot.volume));
   all.push_back(of_model(Effect::isotropic_volume, isotropic,
-                         isotropic ? "its share of the volume's light is k_d" : "k_d is 0"));
-  all.push_back(of_model(Effect::tangent_curve, bends,
-                         bends ? fmt::format("{} and {} pieces", warp.lengths.size(), weft.lengths.size())
-                               : "the threads lie straight: one tangent each"));
+                         isotropic ? "of the volume's light, " + both("k_d", warp.k_d, weft.k_d) : "k_d is 0"));
+  all.push_back(of_model(
+      Effect::tangent_curve, bends,
+      bends ? fmt::format("the warp bends in {} pieces, the weft in {}", warp.lengths.size(), weft.lengths.size())
+            : "the threads lie straight: one tangent each"));
   return all;
 }
 
@@ -151,8 +154,8 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
   } else {
     p.reason = fmt::format("{}; without it E would be off by {}", adds, percent_text(pilot.lost_after[0]));
     if (!all)
-      p.reason += fmt::format(", after {} by {}", bounces_text(out.count),
-                              percent_text(pilot.lost_after[size_t(out.count)]));
+      p.reason +=
+          fmt::format(", after {} by {}", bounces_text(out.count), percent_text(pilot.lost_after[size_t(out.count)]));
   }
   if (all) out.count = every_bounce;
   return settled();
@@ -169,6 +172,7 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
                         const std::string& missing, const std::string& remedy) {
   PlannedEffect planned{effect, is_there, is_there ? Basis::look : Basis::data, is_there ? reason : missing, {},
                         {},     0};
+  planned.missing = !is_there;
   if (!is_there && switches.named_on(effect))
     throw InputError(fmt::format("--effects +{}: {}", effect_info(effect).name, missing), remedy);
   if (is_there &&
@@ -226,7 +230,7 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
       Effect::backdrop, scene.backdrop != Backdrop::none, switches,
       scene.backdrop == Backdrop::plain ? "one colour beside the cloth" : "the map is seen beside the cloth",
       "nothing is asked for beside the cloth", "say which: --backdrop environment");
-  backdrop.basis = Basis::asked;
+  if (backdrop.on) backdrop.basis = Basis::asked;
   backdrop.share = pilot.backdrop;
   plan.effects.push_back(backdrop);
   plan.effects.push_back(plan_references(switches));

@@ -27,6 +27,7 @@ struct PlannedEffect {
   std::optional<Interval> loss;   ///< E of the picture that leaves out what is ruled out of it
   double cost =
       0;  ///< of a sample, as a share of one with direct light alone; of an effect that is off, what it saves
+  bool missing = false;  ///< off because the scene describes nothing of it
 };
 
 /// Which effects a picture is rendered with, decided before it is.
