@@ -13,7 +13,7 @@ namespace sateen::bench {
 
 namespace {
 
-constexpr int width = 240, height = 135, samples = 8, rounds = 41;
+constexpr int width = 240, height = 135, samples = 4, rounds = 21;
 
 SceneSettings settings_of(const char* look) {
   SceneSettings settings;
