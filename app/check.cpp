@@ -123,12 +123,7 @@ void check_map(Finding& f) {
   f.facts.push_back(fmt::format("{} x {}, {}", report.width, report.height, space));
   f.facts.push_back(fmt::format("{:.1f} stops, largest over mean luminance {:.4g}, metered exposure {:+.2f} EV",
                                 report.stops, report.largest_over_mean, report.metered_ev));
-  for (const std::string& repair : repair_texts(report.repairs)) f.notices.push_back(repair);
-  if (map.black) f.notices.push_back("it is black: nothing will be lit");
-  if (report.width != 2 * report.height)
-    f.notices.push_back(
-        fmt::format("it is {} x {}, and a lat-long map is twice as wide as high: it will be stretched", report.width,
-                    report.height));
+  for (const std::string& notice : environment_notices(map)) f.notices.push_back(notice);
   const std::string extension = lower_extension(f.path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
     f.notices.push_back("a format without high dynamic range: lights are cut at white; use EXR or HDR");

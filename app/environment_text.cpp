@@ -4,21 +4,6 @@
 
 namespace sateen::app {
 
-std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs) {
-  std::vector<std::string> texts;
-  const auto add = [&](const EnvironmentRepairs::Kind& kind, const char* what) {
-    if (kind.count > 0)
-      texts.push_back(fmt::format("{} pixel{} {}, first at {} {}", kind.count, kind.count == 1 ? "" : "s", what,
-                                  kind.first_x, kind.first_y));
-  };
-  add(repairs.not_a_number, "not a number: made 0");
-  add(repairs.infinite, "infinite: made the map's largest finite value");
-  add(repairs.negative, "negative: made 0");
-  add(repairs.out_of_gamut, "outside the working space's gamut: made 0 there");
-  add(repairs.spike, "with one channel far above the others (left as they are; perhaps damaged)");
-  return texts;
-}
-
 std::string environment_text(const std::string& path, const std::string& space, const EnvironmentReport& r) {
   std::string text = fmt::format("{}  {} x {}, {}\n", path, r.width, r.height, space);
   text += fmt::format("  luminance {:.4g} to {:.4g}, mean {:.4g}; largest over mean {:.4g}; {:.1f} stops\n",

@@ -9,9 +9,6 @@ namespace sateen::app {
 /// A map's report for people, several lines.
 std::string environment_text(const std::string& path, const std::string& space, const EnvironmentReport& report);
 
-/// What was mended or looks suspicious, one sentence each; empty for a clean map.
-std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs);
-
 /// The same as a JSON object.
 void write_environment(JsonWriter& w, const std::string& path, const std::string& space,
                        const EnvironmentReport& report);

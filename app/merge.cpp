@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
+#include "assembly.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
 #include "picture_report.h"
 #include "render.h"
 #include "render/checkpoint.h"
-#include "render/exposure.h"
 
 namespace sateen::app {
 
@@ -33,6 +33,7 @@ int run_merge(const std::vector<std::string>& words) {
   if (outputs.empty() && checkpoint.empty())
     throw InputError("merge has nothing to write", "add -o FILE.exr or --checkpoint FILE");
   for (const std::string& output : outputs) check_picture_path(output);
+  if (!checkpoint.empty()) check_can_write(checkpoint);
 
   const Checkpoint sum = merge_checkpoints({inputs.begin(), inputs.end()});
   RenderFlags flags;
@@ -40,12 +41,7 @@ int run_merge(const std::vector<std::string>& words) {
   PictureFlags& p = flags.picture;
   p.outputs = outputs;
   keep_effects(p, sum.facts);
-  const ColorManager colors(p.ocio, p.working);
-  p.display = settle_display(p.display, colors);
-  SceneReport report;
-  Scene scene = assemble_scene(p.scene, colors, report);
-  report.metered_ev = metered_towards(scene.environment, p.scene.camera.azimuth_deg, p.scene.environment_ev);
-  PictureJob job = make_job(p, report, scene, colors, "merge " + shell_line(words));
+  auto [colors, report, scene, job] = assemble_picture(p, "merge " + shell_line(words), false);
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;
   job.first_sample = int(sum.film.first_sample);
@@ -63,8 +59,7 @@ int run_merge(const std::vector<std::string>& words) {
       job.display, job.exposure_ev, picture_attributes(job, report, result)};
   const std::optional<References> references = references_of(p, job, scene, colors);
   if (references) content.overlay = &references->overlay;
-  std::vector<WrittenPicture> written;
-  for (const std::string& output : outputs) written.push_back(write_picture(output, content, colors));
+  const std::vector<WrittenPicture> written = write_pictures(outputs, content, colors, job.render.threads);
   if (!checkpoint.empty()) write_checkpoint(checkpoint, sum);
   for (const WrittenPicture& file : written) print_written(job, file);
   print_result_line(job, result);

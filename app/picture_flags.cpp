@@ -1,6 +1,7 @@
 #include "picture_flags.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -28,8 +29,9 @@ void add_scene(Command& c, PictureFlags& f) {
       [&s](const auto& w) { s.level = w.back() == "auto" ? -1 : read_integer("--level", w.back(), 0, 6); },
       "subdivision, 0 to 6 (default: auto, by pixel size)");
   c.number("--warp-angle", "DEG", s.warp_angle_deg, -360, 360, "turns the warp on the mesh");
-  c.number("--uv-metres", "M", s.uv_metres, 1e-6, 1e6,
-           "cloth that one UV unit spans, by which threads are counted (default: built-in shapes 1, else taken as 1)");
+  c.number(
+      "--uv-metres", "M", s.uv_metres, 1e-6, 1e6,
+      "cloth that one UV unit spans, by which threads are counted (default: built-in shapes 1, else taken as 1)");
   c.text("-e,--env", "NAME|FILE", s.environment,
          fmt::format("the light, a lat-long HDR map (default: {}); sateen env list shows all", s.environment));
   c.number("--env-rotate", "DEG", s.environment_rotation_deg, -36000, 36000, "turns the light to the right");
@@ -203,7 +205,8 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int default_s
     const bool off = f.switches.named_off(Effect::interreflection), on = f.switches.named_on(Effect::interreflection);
     if ((off && f.render.light.bounces > 0) || (on && f.render.light.bounces == 0))
       throw InputError(
-          fmt::format("--bounces {} and --effects {} contradict each other", f.render.light.bounces, f.effects));
+          fmt::format("--bounces {} and --effects {} contradict each other", f.render.light.bounces, f.effects),
+          "leave one of them out");
   }
   f.layer_list = read_layers(f.layers);
   f.render.albedo_layer = std::find(f.layer_list.begin(), f.layer_list.end(), "albedo") != f.layer_list.end();
@@ -212,6 +215,19 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int default_s
   if (crop.x1 > f.scene.width || crop.y1 > f.scene.height)
     throw InputError(fmt::format("--crop ends at {} {}, expected at most {} {}, the size of the picture", crop.x1,
                                  crop.y1, f.scene.width, f.scene.height));
+}
+
+void check_memory(const PictureFlags& f) {
+  const bool any_exr = f.outputs.empty() || std::any_of(f.outputs.begin(), f.outputs.end(),
+                                                        [](const std::string& output) { return is_exr(output); });
+  const double layers = any_exr && !f.layer_list.empty() ? double(sizeof(LayerPixel)) : 0;
+  const double pixels = double(f.scene.width) * f.scene.height, gigabyte = 1e9;
+  const double needed = pixels * (double(sizeof(FilmPixel)) + layers);
+  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
+  if (there > 0 && needed > there)
+    throw InputError(fmt::format("--res {} {} takes {:.0f} GB while it is rendered, and this machine has {:.0f}",
+                                 f.scene.width, f.scene.height, needed / gigabyte, there / gigabyte),
+                     layers > 0 ? "make it smaller; --aov none takes less than half" : "make it smaller");
 }
 
 std::vector<std::string> read_layers(const std::string& list) {

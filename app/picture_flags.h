@@ -37,6 +37,9 @@ void add_picture_flags(Command& command, PictureFlags& flags);
 /// voice. `default_spp` is what is rendered when no stop rule was given.
 void settle_picture_flags(const Command& command, PictureFlags& flags, int default_spp);
 
+/// InputError where the sums of the picture's pixels do not fit into this machine's memory.
+void check_memory(const PictureFlags& flags);
+
 /// Layers that `--aov` names. "all" and "none" too.
 std::vector<std::string> read_layers(const std::string& list);
 

@@ -9,7 +9,6 @@
 #include "base/parallel.h"
 #include "console.h"
 #include "exit_code.h"
-#include "render/pilot.h"
 #include "signals.h"
 
 namespace sateen::app {
@@ -132,43 +131,6 @@ void write_stats(const PictureFlags& flags, const std::string& json) {
   if (voice.json) print_result(json);
 }
 
-PictureJob make_job(const PictureFlags& flags, const SceneReport& report, Scene& scene, const ColorManager& colors,
-                    const std::string& words) {
-  PictureJob job;
-  job.scene = flags.scene;
-  job.render = flags.render;
-  job.plan = make_plan(scene, report.look, flags.switches, flags.render.stop.error, flags.render.light,
-                       flags.render.seed, flags.render.threads);
-  if (flags.verify_plan)
-    job.verdicts = verify_plan(scene, job.plan, flags.render.light, flags.render.seed, flags.render.threads);
-  apply_plan(job.plan, scene, job.render.light);
-  // A question of the scene alone and never of the stop rules, so that ranges of samples of one picture, a resumed
-  // one and a longer one agree.
-  if (flags.render.light.strategy == Strategy::automatic) {
-    const StrategyChoice choice = choose_strategy(scene, job.render.light, flags.render.seed, flags.render.threads);
-    job.render.light.strategy = choice.strategy;
-    job.strategy_reason = choice.reason;
-  }
-  job.display = flags.display;
-  job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
-  job.layers = flags.layer_list;
-  job.references = flags.stage.references;
-  job.effects = effects_text(scene, job.render.light);
-  job.color_config = colors.description();
-  job.working_space = colors.working_space();
-  job.version = SATEEN_VERSION;
-  job.command_line = "sateen " + words;
-  return job;
-}
-
-void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts) {
-  for (const Fact& fact : facts)
-    if (fact.name == "bounces" && !flags.switches.bounces)
-      flags.switches.bounces = read_integer("bounces", fact.value, 0, 64);
-    else if (fact.name == "bounce share")
-      flags.switches.bounce_share = float(read_number("bounce share", fact.value, 0.001, 1));
-}
-
 void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
   for (const std::string& warning : report.warnings) print_warning(warning);
   const SceneSettings& s = job.scene;
@@ -181,6 +143,11 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
   if (!job.strategy_reason.empty()) print_note(fmt::format("light sampled by {}", job.strategy_reason));
   const PlannedEffect& bounces = job.plan.of(Effect::interreflection);
   print_note(fmt::format("interreflection {}: {}", bounces.on ? "on" : "off", bounces.reason));
+  // What somebody may look for in the picture and not find.
+  for (const PlannedEffect& planned : job.plan.effects)
+    if (!planned.on && !planned.missing && planned.effect != Effect::interreflection &&
+        effect_info(planned.effect).switchable)
+      print_note(fmt::format("{} off: {}", effect_info(planned.effect).name, planned.reason));
   print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
                            job.effects, job.render.seed, thread_count(job.render.threads)));
   print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",

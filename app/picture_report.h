@@ -11,13 +11,6 @@
 
 namespace sateen::app {
 
-/// Plans the picture: takes out of the scene what the plan has off, and chooses the strategy for what is left.
-PictureJob make_job(const PictureFlags& flags, const SceneReport& report, Scene& scene, const ColorManager& colors,
-                    const std::string& words);
-
-/// Holds the flags to the effects that another render of the picture began with.
-void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts);
-
 /// What is about to be rendered, in a few lines, and every warning of the assembly.
 void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneReport& report);
 

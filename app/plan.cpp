@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "assembly.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
 #include "picture_report.h"
 #include "plan_report.h"
-#include "render/exposure.h"
 
 namespace sateen::app {
 
@@ -28,12 +28,11 @@ int run_plan(const std::vector<std::string>& words) {
   if (!command.parse(words)) return done;
   constexpr int default_spp = 64;
   settle_picture_flags(command, flags, default_spp);
-  const ColorManager colors(flags.ocio, flags.working);
-  flags.display = settle_display(flags.display, colors);
-  SceneReport report;
-  Scene scene = assemble_scene(flags.scene, colors, report);
-  report.metered_ev = metered_towards(scene.environment, flags.scene.camera.azimuth_deg, flags.scene.environment_ev);
-  const PictureJob job = make_job(flags, report, scene, colors, "plan " + shell_line(words));
+  for (const std::string& output : flags.outputs) check_picture_path(output, false);
+  if (!flags.stats.empty()) check_can_write(flags.stats);
+  const Assembly assembly = assemble_picture(flags, "plan " + shell_line(words));
+  const SceneReport& report = assembly.report;
+  const PictureJob& job = assembly.job;
   for (const std::string& warning : report.warnings) print_warning(warning);
   print_note(fmt::format("{} on {} under {}, level {}, {} triangles", report.look.name, job.scene.mesh,
                          job.scene.environment, report.level, report.triangles));

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "assembly.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
 #include "picture_report.h"
 #include "plan_report.h"
 #include "render/checkpoint.h"
-#include "render/exposure.h"
 #include "signals.h"
 
 namespace sateen::app {
@@ -61,7 +61,7 @@ struct Work {
   Checkpoint state;
   std::optional<References> references = {};
 
-  std::vector<WrittenPicture> write_pictures(const RenderResult& result) const {
+  std::vector<WrittenPicture> write_outputs(const RenderResult& result) const {
     PictureContent content;
     content.film = &state.film;
     content.crop = job.render.crop;
@@ -70,9 +70,7 @@ struct Work {
     content.exposure_ev = job.exposure_ev;
     content.attributes = picture_attributes(job, report, result);
     if (references) content.overlay = &references->overlay;
-    std::vector<WrittenPicture> written;
-    for (const std::string& output : flags.picture.outputs) written.push_back(write_picture(output, content, colors));
-    return written;
+    return write_pictures(flags.picture.outputs, content, colors, job.render.threads);
   }
 
   void snapshot(const RenderResult& result, bool asked, Progress& progress) const {
@@ -80,7 +78,7 @@ struct Work {
     try {
       if (!flags.checkpoint.empty()) write_checkpoint(flags.checkpoint, state);
       if (!asked) return;
-      const std::vector<WrittenPicture> written = write_pictures(result);
+      const std::vector<WrittenPicture> written = write_outputs(result);
       progress.clear_line();
       for (const WrittenPicture& file : written) print_written(job, file);
     } catch (const OperationError& error) {
@@ -154,7 +152,8 @@ bool read_render_flags(const std::vector<std::string>& words, RenderFlags& flags
     throw InputError(fmt::format("--samples-from is {}, expected a multiple of {}", flags.first_sample, replicates));
   if (command.given("--samples-from")) {
     if (flags.adaptive_given && p.render.adaptive)
-      throw InputError("--samples-from wants the same samples everywhere, and --adaptive deals them out by error");
+      throw InputError("--samples-from wants the same samples everywhere, and --adaptive deals them out by error",
+                       "leave --adaptive out");
     p.render.adaptive = false;
   }
   return true;
@@ -167,15 +166,12 @@ int run_render(const std::vector<std::string>& words) {
   std::set<std::string> names;
   for (const std::string& output : flags.outputs) {
     check_picture_path(output, !flags.dry_run);
-    if (!names.insert(output).second) throw InputError(fmt::format("--output {} is given twice", output));
+    if (!names.insert(output).second)
+      throw InputError(fmt::format("--output {} is given twice", output), "leave one of them out");
   }
-  if (const auto folder = std::filesystem::path(all.checkpoint).parent_path(); !folder.empty() && !flags.dry_run) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-      throw OperationError(
-          fmt::format("{} cannot be made ({}); nothing was rendered", folder.string(), error.message()));
-  }
+  for (const std::string& other : {all.checkpoint, flags.stats})
+    if (!other.empty()) check_can_write(other, !flags.dry_run);
+  if (!flags.dry_run) check_memory(flags);
   Checkpoint begun;
   if (!all.resume.empty()) {
     begun = read_checkpoint(all.resume);
@@ -187,12 +183,11 @@ int run_render(const std::vector<std::string>& words) {
     keep_effects(flags, begun.facts);
   }
 
-  const ColorManager colors(flags.ocio, flags.working);
-  flags.display = settle_display(flags.display, colors);
-  SceneReport report;
-  Scene scene = assemble_scene(flags.scene, colors, report);
-  report.metered_ev = metered_towards(scene.environment, flags.scene.camera.azimuth_deg, flags.scene.environment_ev);
-  PictureJob job = make_job(flags, report, scene, colors, "render " + shell_line(words));
+  Assembly assembly = assemble_picture(flags, "render " + shell_line(words));
+  const ColorManager& colors = assembly.colors;
+  const SceneReport& report = assembly.report;
+  const Scene& scene = assembly.scene;
+  PictureJob& job = assembly.job;
   job.first_sample = all.first_sample;
   if (!all.resume.empty()) warn_of_tighter_plan(job.plan);
   print_scene(flags, job, report);
@@ -220,7 +215,7 @@ int run_render(const std::vector<std::string>& words) {
   hooks.snapshot = [&](const RenderResult& result, bool asked) { work.snapshot(result, asked, progress); };
   const RenderResult result = render(scene, job.render, work.state.film, work.state.course, hooks);
 
-  const std::vector<WrittenPicture> written = work.write_pictures(result);
+  const std::vector<WrittenPicture> written = work.write_outputs(result);
   const bool stopped = result.reason == StopReason::interrupted;
   std::string checkpoint = all.checkpoint;
   if (stopped && checkpoint.empty()) checkpoint = flags.outputs[0] + ".checkpoint";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "assembly.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
@@ -67,8 +68,10 @@ void check_names(TurntableFlags& f, const std::vector<int>& frames) {
                        "write it such as turn.####.png");
     check_picture_path(frame_name(output, frames[0]), !f.picture.dry_run);
     if (!names.insert(frame_name(output, frames[0])).second)
-      throw InputError(fmt::format("--output {} is given twice", output));
+      throw InputError(fmt::format("--output {} is given twice", output), "leave one of them out");
   }
+  if (!f.picture.stats.empty()) check_can_write(f.picture.stats, !f.picture.dry_run);
+  if (!f.picture.dry_run) check_memory(f.picture);
   if (f.sheet.empty()) return;
   check_picture_path(f.sheet, !f.picture.dry_run);
   if (is_exr(f.sheet)) throw InputError("a sheet is for looking at and is not written as EXR", "use .png or .jpg");
@@ -99,6 +102,7 @@ class Turntable {
   Turntable(TurntableFlags& flags, const std::string& words)
       : flags_(flags), colors_(flags.picture.ocio, flags.picture.working) {
     PictureFlags& p = flags_.picture;
+    set_exr_threads(p.render.threads);
     p.display = settle_display(p.display, colors_);
     scene_ = assemble_scene(p.scene, colors_, report_);
     const Turn turn = Turn(std::find(turn_names().begin(), turn_names().end(), flags_.turn) - turn_names().begin());
@@ -106,7 +110,7 @@ class Turntable {
                                             p.scene.environment_ev, flags_.degrees);
     start_ = start_turntable(scene_, p.scene.camera, turn);
     set_turning_stage(scene_, start_, p.scene.stage);
-    job_ = make_job(p, report_, scene_, colors_, words);
+    job_ = plan_picture(p, report_, scene_, colors_, words);
   }
 
   std::vector<Frame> frames(const std::vector<int>& numbers) const {
@@ -145,7 +149,7 @@ class Turntable {
                            picture_attributes(frame.job, report_, result)};
     const std::optional<References> references = references_of(flags_.picture, frame.job, scene_, colors_);
     if (references) content.overlay = &references->overlay;
-    for (const std::string& file : files) written.push_back(write_picture(file, content, colors_));
+    written = write_pictures(files, content, colors_, job_.render.threads);
     return result;
   }
 

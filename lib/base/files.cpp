@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/missing_file.h"
 
 namespace sateen {
 
@@ -21,7 +22,7 @@ std::string read_text_file(const fs::path& path, std::uint64_t limit) {
   };
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (status.type() == fs::file_type::not_found) fail("no such file");
+  if (status.type() == fs::file_type::not_found) fail("no such file", missing_file_help(path));
   if (code) fail(code.message());
   if (status.type() == fs::file_type::directory) fail("is a folder, expected a file");
   if (status.type() != fs::file_type::regular) fail("is not a regular file");
@@ -130,8 +131,12 @@ Hash& Hash::add_bytes(const void* data, std::size_t size) {
   return *this;
 }
 
-Hash& Hash::add(std::string_view bytes) { return add_bytes(bytes.data(), bytes.size()); }
+Hash& Hash::add(std::string_view bytes) {
+  return add_bytes(bytes.data(), bytes.size());
+}
 
-std::string Hash::hex() const { return fmt::format("{:016x}", value); }
+std::string Hash::hex() const {
+  return fmt::format("{:016x}", value);
+}
 
 }  // namespace sateen

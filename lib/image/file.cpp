@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "image/oiio/functions.h"
+#include "image/plain_exr.h"
 
 namespace sateen {
 
@@ -45,6 +46,7 @@ ImageFileInfo read_image_info(const fs::path& path) {
 }
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
+  if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
   return image_file_functions().read_pixels(path, limits, info);
 }
 

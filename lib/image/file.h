@@ -44,6 +44,10 @@ struct ImageLayer {
 using Attribute = std::variant<int, double, std::string>;
 using Attributes = std::map<std::string, Attribute>;  ///< "sateen:spp" ...
 
+/// Threads that OpenEXR packs and unpacks pixels with, in the whole program; to be said before files are worked on.
+/// Without it whoever calls does it alone.
+void set_exr_threads(int threads);
+
 /// Writes an OpenEXR file whole or not at all (base/files), reads it back and compares before it takes its name.
 /// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header.
 long long write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,

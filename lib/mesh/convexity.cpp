@@ -11,6 +11,7 @@ namespace {
 
 constexpr float flat_to = 1e-6f;   // of the size of the mesh
 constexpr float level_to = 1e-5f;  // of the size of a quad
+constexpr float surely = 0.01f;  // of the size of the mesh: far more than quads of a convex body are off their planes
 
 struct Plane {
   Vec3 normal, point;
@@ -78,6 +79,21 @@ bool bends_outwards(const Mesh& mesh, const Plane& left, const Plane& right, std
   return dot(left.normal, right.normal) > -0.999f && below(left, right_quad) && below(right, left_quad);
 }
 
+/// A few quads against a few thousand vertices: most cloth rises above some of them by far, and is known as folded
+/// without its edges being looked at.
+bool is_surely_folded(const Mesh& mesh) {
+  constexpr size_t most_quads = 16, most_vertices = 4096;
+  const float size = (mesh.bounds_max - mesh.bounds_min).length();
+  const size_t quads = std::min(mesh.quads.size(), most_quads);
+  const size_t stride = mesh.positions.size() / most_vertices + 1;
+  for (size_t k = 0; k < quads; ++k) {
+    const Plane plane = plane_of(mesh, mesh.quads[k * mesh.quads.size() / quads]);
+    for (size_t i = 0; i < mesh.positions.size(); i += stride)
+      if (dot(plane.normal, mesh.positions[i] - plane.point) > plane.slack + surely * size) return true;
+  }
+  return false;
+}
+
 bool is_convex(const Mesh& mesh) {
   const Welded welded = weld(mesh);
   std::vector<Plane> planes;
@@ -126,7 +142,7 @@ bool is_convex(const Mesh& mesh) {
 MeshForm mesh_form(const Mesh& mesh) {
   if (mesh.quads.empty()) return MeshForm::flat;
   if (is_flat(mesh)) return MeshForm::flat;
-  return is_convex(mesh) ? MeshForm::convex : MeshForm::folded;
+  return !is_surely_folded(mesh) && is_convex(mesh) ? MeshForm::convex : MeshForm::folded;
 }
 
 }  // namespace sateen

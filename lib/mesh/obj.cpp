@@ -263,7 +263,8 @@ ControlMesh Reader::read() {
   if (mesh_.face_sizes.empty())
     throw InputError(fmt::format("{}: {}", mesh_.name,
                                  seen_face ? "no face is left after dropping those that use a vertex twice"
-                                           : "holds no face, expected at least one"));
+                                           : "holds no face, expected at least one"),
+                     seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
   drop_bad_uvs();
   if (any_uv_) mesh_.uv_indices.resize(mesh_.position_indices.size(), -1);
   if (!any_uv_) mesh_.uvs.clear();

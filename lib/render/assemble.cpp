@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <future>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/missing_file.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "look/describe.h"
@@ -15,8 +18,10 @@
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
+#include "render/exposure.h"
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
+#include "scene/environment_inspect.h"
 #include "scene/near_weave.h"
 
 namespace sateen {
@@ -63,12 +68,40 @@ struct Cloth {
 
 ControlMesh read_cage(const std::string& name) {
   if (is_built_in_shape(name)) return built_in_shape(name);
+  const std::filesystem::path path = name;
   std::error_code code;
+  if (std::filesystem::exists(path, code)) return read_obj(name);
   // A word without a folder or an extension was meant as a name.
-  if (!std::filesystem::exists(name, code) && name.find_first_of("/.") == std::string::npos)
-    throw InputError(fmt::format("there is no mesh called {}", name),
-                     suggestion(name, built_in_shapes()) + " (or the path of an OBJ)", InputError::Kind::unreadable);
-  return read_obj(name);
+  const bool is_word = name.find_first_of("/.") == std::string::npos;
+  std::string help = missing_file_help(path, ".obj");
+  if (help.empty()) help = suggestion(path.stem().string(), built_in_shapes()) + " (or the path of an OBJ)";
+  throw InputError(is_word ? fmt::format("there is no mesh called {}", name) : fmt::format("{}: no such file", name),
+                   help, InputError::Kind::unreadable);
+}
+
+/// InputError for a mesh of which nothing can be seen; warnings for one that floats cannot hold well.
+void check_extent(const std::string& name, const Mesh& mesh, std::vector<std::string>& warnings) {
+  double area = 0;
+  for (const auto& quad : mesh.quads) {
+    const Vec3 &a = mesh.positions[quad[0]], &b = mesh.positions[quad[1]], &c = mesh.positions[quad[2]],
+               &d = mesh.positions[quad[3]];
+    area += Vec3d(c - a).cross(Vec3d(d - b)).length() + Vec3d(b - a).cross(Vec3d(c - a)).length();
+  }
+  if (!(area > 0))
+    throw InputError(
+        fmt::format("{}: none of its {} faces has an area: nothing of it can be seen", name, mesh.quads.size()),
+        "its corners lie in one point or on one line; export it anew");
+  const Vec3 size = mesh.bounds_max - mesh.bounds_min;
+  float farthest = 0;
+  for (int k = 0; k < 3; ++k)
+    farthest = std::max({farthest, std::abs(mesh.bounds_min[k]), std::abs(mesh.bounds_max[k])});
+  // Positions are floats of 24 bits: folds are smooth while the object spans some ten thousand of their steps.
+  constexpr float far_away = 1000;
+  if (farthest > far_away * size.length())
+    warnings.push_back(
+        fmt::format("{}: it lies {:.2g} times its own size from the origin, where positions have no more than {:.0f} "
+                    "steps across it; move it to the origin",
+                    name, farthest / size.length(), size.length() / (farthest * 0x1p-24f)));
 }
 
 Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
@@ -90,6 +123,7 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
     report.warnings.push_back(
         fmt::format("{}: {} of {} vertices have no usable UVs: their warp follows the object's X axis", settings.mesh,
                     mesh->fallback_warps, mesh->positions.size()));
+  check_extent(settings.mesh, *mesh, report.warnings);
   cloth.camera = frame_points(mesh->positions, settings.camera, settings.width, settings.height);
   cloth.mesh = std::move(mesh);
   report.mesh_seconds = now() - start;
@@ -140,6 +174,8 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
     options.rotation_deg = settings.environment_rotation_deg;
     options.exposure_ev = settings.environment_ev;
     Environment map = read_environment(settings.environment, colors, options);
+    report.environment_hash = hash_environment(map);
+    report.metered_ev = metered_towards(map, settings.camera.azimuth_deg, settings.environment_ev);
     report.environment_seconds = now() - start;
     return map;
   });
@@ -172,11 +208,11 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
   settle_weave(settings, scene, report);
+  for (const std::string& notice : environment_notices(scene.environment))
+    report.warnings.push_back(settings.environment + ": " + notice);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   set_stage(scene, settings.stage, settings.threads);
   renew_openness(scene);
-  report.environment_hash = hash_environment(scene.environment);
-  report.metered_ev = metered_exposure_ev(scene.environment);
   return scene;
 }
 

@@ -6,12 +6,25 @@ GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::u
                           int threads) {
   GridPicture picture;
   picture.grid = grid;
+  picture.grid.samples = 0;
   picture.pixels.resize(size_t(grid.pixels()));
-  picture.work = trace_grid(scene, light, seed, grid, threads, [&](int i, std::span<const CameraSample> samples) {
-    FilmPixel& pixel = picture.pixels[size_t(i)];
-    for (const CameraSample& s : samples) add_sample(pixel, s.total(), s.alpha, 0x1p-33);
-  });
+  trace_more(picture, scene, light, seed, grid.samples, threads);
   return picture;
+}
+
+void trace_more(GridPicture& picture, const Scene& scene, const LightSettings& light, std::uint32_t seed, int samples,
+                int threads) {
+  PixelGrid more = picture.grid;
+  more.first += picture.grid.samples;
+  more.samples = samples - picture.grid.samples;
+  const GridWork work = trace_grid(scene, light, seed, more, threads, [&](int i, std::span<const CameraSample> all) {
+    FilmPixel& pixel = picture.pixels[size_t(i)];
+    for (const CameraSample& s : all) add_sample(pixel, s.total(), s.alpha, 0x1p-33);
+  });
+  picture.grid.samples = samples;
+  picture.work.rays.add(work.rays);
+  picture.work.hits += work.hits;
+  picture.work.cpu_seconds += work.cpu_seconds;
 }
 
 std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole) {

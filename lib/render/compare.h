@@ -15,6 +15,9 @@ struct GridPicture {
 };
 GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
                           int threads);
+/// Goes on to `samples` a pixel: the same sums as of a picture that had them all at once.
+void trace_more(GridPicture& picture, const Scene& scene, const LightSettings& light, std::uint32_t seed, int samples,
+                int threads);
 
 /// What `less` lacks of `whole`: two pictures of one grid, the same random numbers.
 std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole);

@@ -100,10 +100,10 @@ EffectSwitches read_effects(const std::string& list) {
     }
     if (word.empty() || (word[0] != '+' && word[0] != '-')) {
       const std::vector<std::string> names = switchable_names();
-      const bool is_name = std::find(names.begin(), names.end(), word) != names.end();
+      const std::string near = nearest_name(word, names);
       throw InputError(
           fmt::format("--effects has {}, expected auto, all, none, or names with + or -", shown_name(word)),
-          is_name ? fmt::format("did you mean +{}?", word) : suggestion(word, {"auto", "all", "none"}));
+          near.empty() ? suggestion(word, {"auto", "all", "none"}) : fmt::format("did you mean +{}?", near));
     }
     const Effect effect = effect_from_name(word.substr(1));
     if (!effect_info(effect).switchable)
@@ -111,7 +111,7 @@ EffectSwitches read_effects(const std::string& list) {
                        fmt::format("change the look, or switch one of {}", fmt::join(switchable_names(), ", ")));
     (word[0] == '+' ? switches.on : switches.off).push_back(effect);
     if (switches.named_on(effect) && switches.named_off(effect))
-      throw InputError(fmt::format("--effects has both +{0} and -{0}", word.substr(1)));
+      throw InputError(fmt::format("--effects has both +{0} and -{0}", word.substr(1)), "leave one of them out");
   }
   return switches;
 }

@@ -57,7 +57,7 @@ Interval light_share(std::span<const PixelLoss> pixels) {
     squares += off * off;
   }
   const double half = normal_95 * std::sqrt(squares) / total;
-  return {share, share - half, share + half};
+  return {share, std::max(share - half, 0.0), share + half};
 }
 
 std::string percent_text(const Interval& share) {

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/parallel.h"
 #include "film/develop.h"
 #include "look/json.h"
 
@@ -112,6 +113,10 @@ void check_picture_path(const fs::path& path, bool try_it) {
   if (std::find(known.begin(), known.end(), extension) == known.end())
     throw InputError(fmt::format("{}: pictures of kind .{} are not written", shown_name(path.string()), extension),
                      suggestion(extension, known));
+  check_can_write(path, try_it);
+}
+
+void check_can_write(const fs::path& path, bool try_it) {
   const auto refuse = [&](const std::string& why) {
     throw OperationError(fmt::format("{} cannot be written ({}); nothing was rendered", path.string(), why));
   };
@@ -167,6 +172,14 @@ WrittenPicture write_picture(const fs::path& path, const PictureContent& content
   std::error_code error;
   const auto bytes = fs::file_size(path, error);
   written.bytes = error ? 0 : (long long)(bytes);
+  return written;
+}
+
+std::vector<WrittenPicture> write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
+                                           const ColorManager& colors, int threads) {
+  std::vector<WrittenPicture> written(paths.size());
+  parallel_for(int(paths.size()), threads,
+               [&](int i) { written[size_t(i)] = write_picture(paths[size_t(i)], content, colors); });
   return written;
 }
 

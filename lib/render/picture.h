@@ -46,6 +46,8 @@ const std::vector<std::string>& picture_extensions();
 /// InputError where the extension is unknown; OperationError where no file can be made there. With `try_it` folders
 /// that are missing are made and a file is created and removed again: some refuse for reasons that no look tells.
 void check_picture_path(const std::filesystem::path& path, bool try_it = true);
+/// The second half, for any kind of file.
+void check_can_write(const std::filesystem::path& path, bool try_it = true);
 
 /// Names of the layers beside the beauty, in the order of develop_layers().
 const std::vector<std::string>& layer_names();
@@ -67,5 +69,8 @@ struct WrittenPicture {
 };
 WrittenPicture write_picture(const std::filesystem::path& path, const PictureContent& content,
                              const ColorManager& colors);
+/// Several of them, side by side, in the order of `paths`. Where one fails others may not be written.
+std::vector<WrittenPicture> write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
+                                           const ColorManager& colors, int threads);
 
 }  // namespace sateen

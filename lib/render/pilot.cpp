@@ -11,6 +11,10 @@ namespace sateen {
 namespace {
 
 constexpr double better_by = 0.9;
+// The usual strategy gains most from further samples. Of thirty pairs of scene and strategy one fell, from 1.02 to
+// 0.93 of its price, between 16 samples and 64; what is dearer by this much at 16 does not win.
+constexpr int first_look = 16;
+constexpr double hopeless = 1.2;
 
 // Costs [ns] of a camera ray, a hit, a hit's proposals and a shadow ray with its share of evaluations.
 struct Cost {
@@ -36,31 +40,52 @@ Cost cost_of(Strategy strategy, int candidates) {
   return cost;
 }
 
-StrategyTrial try_strategy(const Scene& scene, LightSettings light, Strategy strategy, std::uint32_t seed,
-                           int threads) {
-  light.strategy = strategy;
-  light.bounces = 0;
-  const PixelGrid grid;
-  const GridPicture picture = trace_picture(scene, light, seed, grid, threads);
-  const Cost cost = cost_of(strategy, light.candidates);
-  StrategyTrial trial;
-  trial.strategy = strategy;
-  trial.squared_error = relative_variance(picture);
-  trial.cost = cost.camera + (double(picture.work.hits) * (cost.hit + cost.proposals) +
-                              double(picture.work.rays.shadow) * cost.shadow) /
-                                 (double(grid.pixels()) * grid.samples);
-  return trial;
-}
+/// One strategy's picture of the grid, direct light alone.
+struct Attempt {
+  LightSettings light;
+  GridPicture picture = {};
+
+  StrategyTrial trial() const {
+    const Cost cost = cost_of(light.strategy, light.candidates);
+    StrategyTrial t;
+    t.strategy = light.strategy;
+    t.samples = picture.grid.samples;
+    t.squared_error = relative_variance(picture);
+    t.cost = cost.camera + (double(picture.work.hits) * (cost.hit + cost.proposals) +
+                            double(picture.work.rays.shadow) * cost.shadow) /
+                               (double(picture.grid.pixels()) * picture.grid.samples);
+    return t;
+  }
+};
 
 }  // namespace
 
 StrategyChoice choose_strategy(const Scene& scene, const LightSettings& light, std::uint32_t seed, int threads) {
-  StrategyChoice choice;
+  std::vector<Attempt> attempts;
+  PixelGrid grid;
+  const int all_samples = grid.samples;
+  grid.samples = first_look;
   for (const Strategy strategy :
-       {Strategy::mis_compensated, Strategy::resampled, Strategy::environment, Strategy::table})
-    choice.trials.push_back(try_strategy(scene, light, strategy, seed, threads));
-  const StrategyTrial& usual = choice.trials.front();
-  const StrategyTrial& best = *std::min_element(choice.trials.begin(), choice.trials.end(),
+       {Strategy::mis_compensated, Strategy::resampled, Strategy::environment, Strategy::table}) {
+    Attempt attempt{light};
+    attempt.light.strategy = strategy;
+    attempt.light.bounces = 0;
+    attempt.picture = trace_picture(scene, attempt.light, seed, grid, threads);
+    attempts.push_back(std::move(attempt));
+  }
+  const double usual_at_first = attempts.front().trial().price();
+  StrategyChoice choice;
+  std::vector<StrategyTrial> finished;
+  for (Attempt& attempt : attempts) {
+    const bool is_usual = finished.empty();
+    if (is_usual || attempt.trial().price() < hopeless * usual_at_first) {
+      trace_more(attempt.picture, scene, attempt.light, seed, all_samples, threads);
+      finished.push_back(attempt.trial());
+    }
+    choice.trials.push_back(attempt.trial());
+  }
+  const StrategyTrial& usual = finished.front();
+  const StrategyTrial& best = *std::min_element(finished.begin(), finished.end(),
                                                 [](const auto& a, const auto& b) { return a.price() < b.price(); });
   const bool changes = best.price() < better_by * usual.price();
   choice.strategy = changes ? best.strategy : usual.strategy;

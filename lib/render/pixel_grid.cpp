@@ -28,8 +28,10 @@ GridWork trace_grid(const Scene& scene, const LightSettings& light, std::uint32_
       for (int first = 0; first < grid.samples; first += batch_size) {
         std::array<SampleId, batch_size> ids;
         const int count = std::min(batch_size, grid.samples - first);
-        for (int k = 0; k < count; ++k)
-          ids[size_t(k)] = {x, y, (first + k) % replicates, std::uint32_t((first + k) / replicates)};
+        for (int k = 0; k < count; ++k) {
+          const int number = grid.first + first + k;
+          ids[size_t(k)] = {x, y, number % replicates, std::uint32_t(number / replicates)};
+        }
         trace_samples(scene, light, seed, {ids.data(), size_t(count)}, *scratch, &samples[size_t(first)]);
       }
       for (const CameraSample& s : samples) hits += s.hit;

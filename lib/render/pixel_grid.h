@@ -10,6 +10,7 @@ namespace sateen {
 /// of its price.
 struct PixelGrid {
   int columns = 48, rows = 32;
+  int first = 0;     ///< number of the first sample, a multiple of `replicates`
   int samples = 64;  ///< of each pixel, a multiple of `replicates`; sample k belongs to replicate k mod replicates
   Vec2 place{0.5f, 0.5f};  ///< of the pixel in its cell, 0 to 1
 

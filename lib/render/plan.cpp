@@ -21,7 +21,8 @@ std::string percent(double share) {
 }
 
 std::string both(const char* name, float warp, float weft) {
-  return warp == weft ? fmt::format("{} {}", name, warp) : fmt::format("{} {} and {}", name, warp, weft);
+  return warp == weft ? fmt::format("{} {} in warp and weft", name, warp)
+                      : fmt::format("{} {} in the warp, {} in the weft", name, warp, weft);
 }
 
 /// What a look's own numbers decide.
@@ -40,20 +41,22 @@ std::vector<PlannedEffect> plan_model(const Look& look, const PlanPilot& pilot) 
     return std::any_of(f.offsets_deg.begin(), f.offsets_deg.end(), [&](float o) { return o != f.offsets_deg[0]; });
   });
   std::vector<PlannedEffect> all;
-  all.push_back(
-      of_model(Effect::families, has_warp && has_weft,
-               has_warp && has_weft ? both("coverage", warp.coverage, weft.coverage) : "one family covers nothing",
-               pilot.weft));
+  all.push_back(of_model(Effect::families, has_warp && has_weft,
+                         has_warp && has_weft
+                             ? both("coverage", warp.coverage, weft.coverage) + "; the light is the weft's"
+                             : "one family covers nothing",
+                         pilot.weft));
   all.push_back(of_model(Effect::surface_lobe, surface,
                          surface ? both("eta", warp.eta, weft.eta) : "eta is 1: nothing is reflected",
                          pilot.surface));
   all.push_back(of_model(Effect::directed_volume, directed,
                          directed ? both("k_d", warp.k_d, weft.k_d) : "k_d is 1: all of it is even", pilot.volume));
   all.push_back(of_model(Effect::isotropic_volume, isotropic,
-                         isotropic ? "its share of the volume's light is k_d" : "k_d is 0"));
-  all.push_back(of_model(Effect::tangent_curve, bends,
-                         bends ? fmt::format("{} and {} pieces", warp.lengths.size(), weft.lengths.size())
-                               : "the threads lie straight: one tangent each"));
+                         isotropic ? "of the volume's light, " + both("k_d", warp.k_d, weft.k_d) : "k_d is 0"));
+  all.push_back(of_model(
+      Effect::tangent_curve, bends,
+      bends ? fmt::format("the warp bends in {} pieces, the weft in {}", warp.lengths.size(), weft.lengths.size())
+            : "the threads lie straight: one tangent each"));
   return all;
 }
 
@@ -90,6 +93,16 @@ PlannedEffect plan_self_shadowing(MeshForm form, const EffectSwitches& switches)
   return planned;
 }
 
+std::string bounces_text(int count) {
+  return fmt::format("{} bounce{}", count, count == 1 ? "" : "s");
+}
+
+/// How many bounces the pilot follows: where their number is given, one more tells what comes after.
+int pilot_bounces(MeshForm form, const EffectSwitches& switches) {
+  if (form != MeshForm::folded) return 0;
+  return switches.bounces ? std::min(*switches.bounces + 1, every_bounce) : every_bounce;
+}
+
 struct Bounces {
   PlannedEffect planned;
   int count = 0;
@@ -105,7 +118,7 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
   const bool on = switches.named_on(p.effect) || switches.rest == EffectSwitches::Rest::all;
   // What the bounces that are followed leave out.
   const auto settled = [&] {
-    if (form == MeshForm::folded) {
+    if (form == MeshForm::folded && pilot.indirect) {
       p.share = pilot.indirect;
       if (out.count < tracked_bounces) p.loss = pilot.lost_after[size_t(out.count)];
     }
@@ -115,8 +128,13 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
     out.count = off ? 0 : switches.bounces.value_or(every_bounce);
     p.on = out.count > 0;
     p.basis = Basis::asked;
-    p.reason = !p.on ? "switched off" : switches.bounces ? fmt::format("{} bounces", out.count) : "every bounce";
-    if (form == MeshForm::folded) p.reason += fmt::format("; it adds {} of the light", percent_text(pilot.indirect));
+    p.reason = !p.on ? "switched off" : switches.bounces ? bounces_text(out.count) : "every bounce";
+    if (form == MeshForm::folded && pilot.indirect)
+      p.reason += fmt::format("; {} {} of the light",
+                              p.on  ? "it adds"
+                              : off ? "it would add"
+                                    : "the first bounce would add",
+                              percent_text(*pilot.indirect));
     return settled();
   }
   if (form != MeshForm::folded) {
@@ -129,15 +147,15 @@ Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches
   while (out.count < tracked_bounces && pilot.lost_after[size_t(out.count)].high > allowed) ++out.count;
   const bool all = out.count == tracked_bounces;
   p.on = out.count > 0;
-  const std::string adds = fmt::format("adds {} of the light", percent_text(pilot.indirect));
+  const std::string adds = fmt::format("adds {} of the light", percent_text(pilot.indirect.value_or(Interval())));
   if (!p.on) {
     p.reason = fmt::format("{}; leaving it out costs E {}, and {} are allowed", adds,
                            percent_text(pilot.lost_after[0]), percent(allowed));
   } else {
     p.reason = fmt::format("{}; without it E would be off by {}", adds, percent_text(pilot.lost_after[0]));
     if (!all)
-      p.reason += fmt::format(", after {} bounce{} by {}", out.count, out.count == 1 ? "" : "s",
-                              percent_text(pilot.lost_after[size_t(out.count)]));
+      p.reason +=
+          fmt::format(", after {} by {}", bounces_text(out.count), percent_text(pilot.lost_after[size_t(out.count)]));
   }
   if (all) out.count = every_bounce;
   return settled();
@@ -154,6 +172,7 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
                         const std::string& missing, const std::string& remedy) {
   PlannedEffect planned{effect, is_there, is_there ? Basis::look : Basis::data, is_there ? reason : missing, {},
                         {},     0};
+  planned.missing = !is_there;
   if (!is_there && switches.named_on(effect))
     throw InputError(fmt::format("--effects +{}: {}", effect_info(effect).name, missing), remedy);
   if (is_there &&
@@ -166,14 +185,15 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
 }
 
 Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switches, double error,
-               const LightSettings& light, std::uint32_t seed, int threads) {
+               const LightSettings& light, std::uint32_t seed, int threads, bool with_pilot) {
   Plan plan;
   plan.error_asked = error > 0;
   plan.error = plan.error_asked ? error : default_plan_error;
   const MeshForm form = mesh_form(*scene.mesh);
   // A floor sends light back to cloth of any form.
   const MeshForm lit_form = solid_ground(scene) ? MeshForm::folded : form;
-  const PlanPilot pilot = run_plan_pilot(scene, light, lit_form == MeshForm::folded, seed, threads);
+  PlanPilot pilot;
+  if (with_pilot) pilot = run_plan_pilot(scene, light, pilot_bounces(lit_form, switches), seed, threads);
   plan.effects = plan_model(look, pilot);
 
   PlannedEffect back =
@@ -210,7 +230,7 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
       Effect::backdrop, scene.backdrop != Backdrop::none, switches,
       scene.backdrop == Backdrop::plain ? "one colour beside the cloth" : "the map is seen beside the cloth",
       "nothing is asked for beside the cloth", "say which: --backdrop environment");
-  backdrop.basis = Basis::asked;
+  if (backdrop.on) backdrop.basis = Basis::asked;
   backdrop.share = pilot.backdrop;
   plan.effects.push_back(backdrop);
   plan.effects.push_back(plan_references(switches));

@@ -27,6 +27,7 @@ struct PlannedEffect {
   std::optional<Interval> loss;   ///< E of the picture that leaves out what is ruled out of it
   double cost =
       0;  ///< of a sample, as a share of one with direct light alone; of an effect that is off, what it saves
+  bool missing = false;  ///< off because the scene describes nothing of it
 };
 
 /// Which effects a picture is rendered with, decided before it is.
@@ -48,9 +49,11 @@ inline constexpr double plan_allowance = 0.5;
 
 /// Decides for a scene that has everything its settings describe. A question of scene, switches and `error` (0: none
 /// asked) alone, never of a clock: the same on every machine and any number of threads. InputError where something is
-/// switched on that the scene does not have. Its pilot takes about a tenth of a CPU-second.
+/// switched on that the scene does not have. Its pilot takes about a twentieth of a CPU-second. Where the number of
+/// bounces is given it follows one more, to tell what is left out. Without `pilot` no share and no loss is known:
+/// for a picture that is rendered already.
 Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switches, double error,
-               const LightSettings& light, std::uint32_t seed, int threads);
+               const LightSettings& light, std::uint32_t seed, int threads, bool pilot = true);
 
 /// Takes out of scene and settings what the plan has off.
 void apply_plan(const Plan& plan, Scene& scene, LightSettings& light);

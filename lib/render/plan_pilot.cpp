@@ -38,11 +38,11 @@ void add(std::vector<PixelLoss>& picture, int pixel, size_t replicate, const Col
 
 }  // namespace
 
-PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, bool bounces, std::uint32_t seed,
+PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bounces, std::uint32_t seed,
                          int threads) {
   LightSettings light = asked;
   if (light.strategy == Strategy::automatic) light.strategy = Strategy::mis_compensated;
-  light.bounces = bounces ? every_bounce : 0;
+  light.bounces = bounces;
   light.bounce_share = 1;
   PixelGrid grid;
   grid.samples = pilot_samples;
@@ -97,9 +97,9 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, bool bo
   if (scene.back) pilot.back = light_share(parts.back);
   if (scene.has_gaps) pilot.through_gaps = light_share(parts.through_gaps);
   if (scene.backdrop != Backdrop::none) pilot.backdrop = light_share(parts.backdrop);
+  if (bounces == 0) return pilot;
   pilot.indirect = light_share(parts.after[0]);
   for (size_t b = 0; b < parts.after.size(); ++b) pilot.lost_after[b] = picture_loss(parts.after[b]);
-  if (!bounces) return pilot;
 
   LightSettings direct = light;
   direct.bounces = 0;

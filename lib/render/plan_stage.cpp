@@ -59,7 +59,9 @@ PlannedEffect plan_lens(const Scene& scene, const EffectSwitches& switches) {
                                     "a pinhole: all is sharp", "name an aperture: --f-stop 2.8");
   // Behind and before the object there is something to blur where it is seen.
   if (blur < visible_pixels && scene.backdrop != Backdrop::environment && !scene.ground)
-    rule_out(planned, switches, "less than half of one");
+    rule_out(planned, switches,
+             fmt::format("less than half of one; it is {:.3g} units large, whose size --metres-per-unit says",
+                         2 * extent_of(scene).radius));
   return planned;
 }
 
@@ -83,7 +85,7 @@ PlannedEffect plan_references(const EffectSwitches& switches) {
   PlannedEffect planned =
       described(Effect::references, switches.references, switches,
                 "laid over the picture; they take no part in its light", "not asked for", "--references");
-  planned.basis = Basis::asked;
+  if (planned.on) planned.basis = Basis::asked;
   return planned;
 }
 

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "base/files.h"
 #include "base/nearest_name.h"
+#include "base/parallel.h"
 
 namespace sateen {
 
@@ -138,6 +138,9 @@ fs::path find_environment(const std::string& name) {
       for (const char* extension : extensions)
         if (is_file(folder / (name + extension))) return folder / (name + extension);
     }
+  if (!name.empty() && fs::is_directory(name, code))
+    throw InputError(fmt::format("{}: is a folder, expected an HDR map", name), "name a file in it",
+                     InputError::Kind::unreadable);
   std::string searched;
   for (const fs::path& folder : folders) searched += (searched.empty() ? "" : ", ") + folder.string();
   throw InputError(fmt::format("no environment map \"{}\" (searched: {})", name, searched),

@@ -1,5 +1,7 @@
 #include "scene/environment_inspect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -94,6 +96,30 @@ EnvironmentReport inspect_environment(const Environment& e) {
                    [](const LightRegion& a, const LightRegion& b) { return a.share > b.share; });
   if (report.regions.size() > 5) report.regions.resize(5);
   return report;
+}
+
+std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs) {
+  std::vector<std::string> texts;
+  const auto add = [&](const EnvironmentRepairs::Kind& kind, const char* what) {
+    if (kind.count > 0)
+      texts.push_back(fmt::format("{} pixel{} {}, first at {} {}", kind.count, kind.count == 1 ? "" : "s", what,
+                                  kind.first_x, kind.first_y));
+  };
+  add(repairs.not_a_number, "not a number: made 0");
+  add(repairs.infinite, "infinite: made the map's largest finite value");
+  add(repairs.negative, "negative: made 0");
+  add(repairs.out_of_gamut, "outside the working space's gamut: made 0 there");
+  add(repairs.spike, "with one channel far above the others (left as they are; perhaps damaged)");
+  return texts;
+}
+
+std::vector<std::string> environment_notices(const Environment& e) {
+  std::vector<std::string> notices = repair_texts(e.repairs);
+  if (e.black) notices.push_back("it is black: nothing will be lit");
+  if (e.width != 2 * e.height && e.width * e.height > 1)  // one pixel is a constant light
+    notices.push_back(fmt::format("it is {} x {}, and a lat-long map is twice as wide as high: it will be stretched",
+                                  e.width, e.height));
+  return notices;
 }
 
 }  // namespace sateen

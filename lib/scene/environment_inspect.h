@@ -30,4 +30,10 @@ struct EnvironmentReport {
 /// there are none, as under an overcast sky, of more than 1.2 times. A constant map has no regions.
 EnvironmentReport inspect_environment(const Environment& environment);
 
+/// What had to be mended, a sentence a kind, with the first place.
+std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs);
+
+/// Everything that makes a map doubtful as a light: repairs, black, not twice as wide as high.
+std::vector<std::string> environment_notices(const Environment& environment);
+
 }  // namespace sateen

@@ -37,10 +37,10 @@ TEST(Usage, AMisspeltValueIsAnsweredWithTheNearestOne) {
                  "error: unknown strategy 'mis-compensate'\n  help: did you mean mis-compensated?\n");
   expect_refused(run_sateen({"render", "--progress", "barr"}), 2,
                  "error: --progress is barr\n  help: did you mean bar?\n" + render_usage);
-  expect_refused(
-      run_sateen({"render", "--aov", "albedo,norml"}), 2,
-      "error: there is no layer norml\n  help: known: direct, indirect, indirect_1, indirect_2, indirect_3, indirect_more, through_gaps, backdrop, surface, volume, warp_surface, "
-      "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
+  expect_refused(run_sateen({"render", "--aov", "albedo,norml"}), 2,
+                 "error: there is no layer norml\n  help: known: direct, indirect, indirect_1, indirect_2, "
+                 "indirect_3, indirect_more, through_gaps, backdrop, surface, volume, warp_surface, "
+                 "warp_volume, weft_surface, weft_volume, albedo, N, P, warp, uv, error, samples\n");
 }
 
 TEST(Usage, AnUnknownQualityIsAnsweredWithTheNearestOne) {
@@ -66,7 +66,7 @@ TEST(Usage, AMissingLookNamesTheNearestAndEndsWithThree) {
 TEST(Usage, AMissingMeshEndsWithThree) {
   const Finished run = run_sateen({"render", "--mesh", "no/such.obj"});
   EXPECT_EQ(run.code, 3);
-  EXPECT_EQ(run.err, "error: no/such.obj: no such file\n");
+  EXPECT_EQ(run.err, "error: no/such.obj: no such file\n  help: there is no folder no\n");
 }
 
 TEST(Usage, AMissingMapNamesTheNearestAndEndsWithThree) {

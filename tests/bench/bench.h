@@ -9,9 +9,9 @@ double nanoseconds(int rounds, int calls, const std::function<void()>& body);
 
 /// Medians of two bodies timed in turn, A B A B ..., so that a machine that changes its speed hurts both alike.
 struct Pair {
-  double a = 0, b = 0;        ///< CPU-seconds
-  double ratio = 0;           ///< median of a / b
-  double low = 0, high = 0;   ///< smallest and largest a / b
+  double a = 0, b = 0;       ///< CPU-seconds
+  double ratio = 0;          ///< median of a / b
+  double low = 0, high = 0;  ///< smallest and largest a / b
 };
 Pair interleaved(int rounds, const std::function<void()>& a, const std::function<void()>& b);
 
@@ -25,5 +25,6 @@ void rays();
 void strategies();
 void memory();
 void whole();
+void off();
 
 }  // namespace sateen::bench

@@ -56,9 +56,14 @@ void require(bool right, const std::string& what) {
 
 int main(int argc, char** argv) {
   using namespace sateen;
-  const std::vector<std::pair<std::string, void (*)()>> all{
-      {"kernel", bench::kernel}, {"samplers", bench::samplers},     {"environment", bench::environment},
-      {"rays", bench::rays},     {"strategies", bench::strategies}, {"memory", bench::memory}, {"whole", bench::whole}};
+  const std::vector<std::pair<std::string, void (*)()>> all{{"kernel", bench::kernel},
+                                                            {"samplers", bench::samplers},
+                                                            {"environment", bench::environment},
+                                                            {"rays", bench::rays},
+                                                            {"strategies", bench::strategies},
+                                                            {"memory", bench::memory},
+                                                            {"whole", bench::whole},
+                                                            {"off", bench::off}};
   std::vector<std::string> names;
   for (const auto& [name, run] : all) names.push_back(name);
   flush_denormals();

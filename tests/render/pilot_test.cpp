@@ -32,7 +32,7 @@ TEST(Pilot, PredictsTheErrorOfThePicture) {
     settings.environment = map_path(map);
     const Scene scene = scene_of(settings);
     for (const StrategyTrial& trial : choose_strategy(scene, {}, 5, 2).trials) {
-      RenderSettings render_settings = samples(64, 9);
+      RenderSettings render_settings = samples(trial.samples, 9);
       render_settings.light.strategy = trial.strategy;
       Film film(96, 54, false);
       const double error = render(scene, render_settings, film).error.error;

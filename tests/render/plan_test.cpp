@@ -107,6 +107,30 @@ TEST(Plan, BrightFoldsNeedInterreflectionAndAFlatSheetDoesNot) {
   EXPECT_EQ(sheet.bounces, 0);
 }
 
+TEST(Plan, GivenBouncesAreKeptAndThePilotLooksOneFurther) {
+  const SceneSettings settings = scene_settings("ivory_duchess_satin", 96, 54);
+  const Scene scene = scene_of(settings);
+  EffectSwitches switches = read_effects("auto");
+  switches.bounces = 1;
+  switches.bounce_share = 0.5f;
+  const auto plan = [&](bool pilot) {
+    return make_plan(scene, read_look(settings.look), switches, 0.02, {}, 1, 2, pilot);
+  };
+  const Plan measured = plan(true), given = plan(false);
+  for (const Plan& each : {measured, given}) {
+    EXPECT_EQ(each.bounces, 1);
+    EXPECT_EQ(each.bounce_share, 0.5f);
+    EXPECT_TRUE(each.of(Effect::interreflection).on);
+  }
+  ASSERT_TRUE(measured.of(Effect::interreflection).loss);
+  EXPECT_GT(measured.of(Effect::interreflection).loss->value, 0);
+  EXPECT_FALSE(given.of(Effect::interreflection).share);
+  EXPECT_FALSE(given.of(Effect::interreflection).loss);
+  switches.bounces = 0;
+  EXPECT_FALSE(plan(true).of(Effect::interreflection).on);
+  EXPECT_GT(plan(true).of(Effect::interreflection).share->low, 0);
+}
+
 TEST(Plan, ATighterErrorNeverCallsForLess) {
   const SceneSettings settings = scene_settings("crimson_velvet", 96, 54);
   const Scene scene = scene_of(settings);

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "bench.h"
+#include "integrator/path.h"
+#include "render/assemble.h"
+#include "render/effects.h"
+
+namespace sateen::bench {
+
+namespace {
+
+constexpr int width = 240, height = 135, samples = 4, rounds = 21;
+
+SceneSettings settings_of(const char* look) {
+  SceneSettings settings;
+  settings.look = look;
+  settings.width = width;
+  settings.height = height;
+  settings.level = 2;
+  return settings;
+}
+
+Scene scene_of(const SceneSettings& settings) {
+  SceneReport report;
+  return assemble_scene(settings, ColorManager(), report);
+}
+
+/// A scene that has the effect switched off, and one that never had it.
+struct OffPair {
+  Effect effect;
+  Scene off, never;
+};
+
+OffPair pair_of(Effect effect) {
+  SceneSettings with = settings_of(default_look), without = with;
+  switch (effect) {
+    case Effect::back:
+      with = without = settings_of("polyester_satin_charmeuse");
+      with.look_overrides = {"back=polyester_satin_charmeuse_back"};
+      without.look_overrides = {"back="};
+      break;
+    case Effect::maps:
+      with = without = settings_of("printed_silk");
+      break;
+    case Effect::pattern:
+      with = without = settings_of("silk_damask");
+      break;
+    case Effect::weave:
+      with.look_overrides = {"weave.draft=plain"};
+      without.look_overrides = {"weave.draft="};
+      break;
+    case Effect::ground:
+      with.stage.ground = GroundSettings();
+      break;
+    case Effect::depth_of_field:
+      with.stage.lens = LensSettings();
+      break;
+    case Effect::motion_blur:
+      with.stage.shutter_deg = 3;
+      break;
+    default:
+      with.backdrop = Backdrop::environment;
+      break;
+  }
+  OffPair pair{effect, scene_of(with), scene_of(without)};
+  LightSettings light;
+  remove_effect(effect, pair.off, light);
+  if (effect == Effect::maps || effect == Effect::pattern) {
+    // No look without textures has the means of these: the fabric is the same and knows of no maps.
+    pair.never.front_maps = pair.never.back_maps = nullptr;
+    pair.never.front.varying = nullptr;
+    pair.never.has_maps = false;
+  }
+  return pair;
+}
+
+/// Sum of all samples, traced as a pass does it.
+double trace_all(const Scene& scene, PathScratch& scratch) {
+  std::array<SampleId, batch_size> ids;
+  std::array<CameraSample, batch_size> out;
+  double sum = 0;
+  size_t waiting = 0;
+  const auto trace = [&] {
+    trace_samples(scene, LightSettings(), 1, {ids.data(), waiting}, scratch, out.data());
+    for (size_t k = 0; k < waiting; ++k) sum += double(out[k].total().x) + double(out[k].alpha);
+    waiting = 0;
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int n = 0; n < samples; ++n) {
+        ids[waiting++] = {x, y, n % replicates, std::uint32_t(n / replicates)};
+        if (waiting == ids.size()) trace();
+      }
+  trace();
+  return sum;
+}
+
+}  // namespace
+
+void off() {
+  fmt::print("an effect that is there and switched off against a scene that never had it, one thread, in turn\n");
+  fmt::print("{:<18}{:>14}{:>14}{:>12}{:>20}\n", "effect", "off CPU-ms", "never CPU-ms", "off/never", "min to max");
+  auto scratch = std::make_unique<PathScratch>();
+  for (const Effect effect : {Effect::back, Effect::maps, Effect::pattern, Effect::weave, Effect::ground,
+                              Effect::depth_of_field, Effect::motion_blur, Effect::backdrop}) {
+    const OffPair pair = pair_of(effect);
+    const std::string& name = effect_info(effect).name;
+    require(trace_all(pair.off, *scratch) == trace_all(pair.never, *scratch), name + " off changes the picture");
+    const Pair time = interleaved(
+        rounds, [&] { trace_all(pair.off, *scratch); }, [&] { trace_all(pair.never, *scratch); });
+    fmt::print("{:<18}{:>14.1f}{:>14.1f}{:>12.4f}{:>10.3f} to {:.3f}\n", name, 1e3 * time.a, 1e3 * time.b, time.ratio,
+               time.low, time.high);
+  }
+}
+
+}  // namespace sateen::bench
