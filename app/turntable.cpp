@@ -100,6 +100,7 @@ class Turntable {
       : flags_(flags), colors_(flags.picture.ocio, flags.picture.working) {
     PictureFlags& p = flags_.picture;
     p.display = settle_display(p.display, colors_);
+    p.scene.from_all_around = flags_.turn != "light";
     scene_ = assemble_scene(p.scene, colors_, report_);
     const Turn turn = Turn(std::find(turn_names().begin(), turn_names().end(), flags_.turn) - turn_names().begin());
     report_.metered_ev = turntable_exposure(scene_.environment, turn, p.scene.camera.azimuth_deg,
