@@ -21,11 +21,11 @@ struct Detail {
   float edge_pixels = 0;     ///< the longest edge
   float off_pixels = 0;      ///< chords from the surface or the hem, across the line of sight: silhouettes; 0.25
   float normal_deg = 0;      ///< interpolated normals from the surface's, on facets: edges of 4 pixels and more; 0.5
-  float turn_deg = 0;        ///< of the surface along a facet, on which the edge of a shadow is broken; 8
+  float rise_pixels = 0;     ///< of the surface over a facet, from whatever side; 0.1
   float missing_levels = 0;  ///< finer levels until a picture bears all of it; below 0: that it could do without
 };
 
-/// What a picture bears of Detail::off_pixels: a quarter of a pixel, an eighth of the pixel filter's width.
+/// What a picture bears of Detail::off_pixels: about half of the pixel filter's standard deviation.
 inline constexpr float most_off_pixels = 0.25f;
 
 /// Between two vertices the surface is taken for the cubic that meets their positions and normals, and the larger

@@ -13,8 +13,8 @@ inline constexpr const char* default_look = "champagne_silk_satin";
 inline constexpr const char* default_mesh = "drape";
 inline constexpr const char* default_environment = "studio_softboxes";
 
-/// What a quad takes while rendering: a vertex of the mesh and its four indices, and Embree's share. Measured.
-inline constexpr std::int64_t bytes_per_quad = 170;
+/// What a quad takes while rendering, in the mesh and in Embree, as measured (docs/numbers.md).
+inline constexpr std::int64_t bytes_per_quad = 150;
 
 /// A scene as a user asks for it: names, paths and human units, a default on everything.
 struct SceneSettings {

@@ -234,7 +234,7 @@ void write_plan(JsonWriter& w, const Plan& plan) {
   w.member("bounce_share", plan.bounce_share);
   w.key("detail").open_object().member("edge_pixels", plan.detail.edge_pixels);
   w.member("off_pixels", plan.detail.off_pixels).member("normal_deg", plan.detail.normal_deg);
-  w.member("turn_deg", plan.detail.turn_deg).close();
+  w.member("rise_pixels", plan.detail.rise_pixels).close();
   w.key("effects").open_list();
   for (const PlannedEffect& p : plan.effects) {
     const EffectInfo& info = effect_info(p.effect);

@@ -81,8 +81,8 @@ TEST(Detail, TheLevelThatIsChosenHoldsAQuarterOfAPixelAndOneLessDoesNot) {
       EXPECT_LE(off, double(most_off_pixels)) << shape << " " << pixel;
       if (made.level == 0) continue;
       const Detail less = measure_detail(subdivide(cage, made.level - 1), with_pixels_of(pixel));
-      EXPECT_TRUE(less.off_pixels > 0.8f * most_off_pixels || less.normal_deg > 0.4f || less.turn_deg > 6)
-          << shape << " " << pixel << ": " << less.off_pixels << " " << less.normal_deg << " " << less.turn_deg;
+      EXPECT_TRUE(less.off_pixels > 0.8f * most_off_pixels || less.normal_deg > 0.4f || less.rise_pixels > 0.08f)
+          << shape << " " << pixel << ": " << less.off_pixels << " " << less.normal_deg << " " << less.rise_pixels;
     }
   }
 }
