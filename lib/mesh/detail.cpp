@@ -15,8 +15,8 @@ namespace sateen {
 
 namespace {
 
-// An edge below this is no facet: all but a fortieth of the pixel filter's weight lies within 2 pixels, and what is wrong
-// on one side of a shorter edge is made up for on the other.
+// An edge below this is no facet: all but a fortieth of the pixel filter's weight lies within 2 pixels, and what is
+// wrong on one side of a shorter edge is made up for on the other.
 constexpr float facet_pixels = 4;
 // A quarter of the narrowest lobe of a satin, 2 degrees; highlights of interpolated normals show no facet below it.
 constexpr float most_normal_deg = 0.5f;
