@@ -27,7 +27,7 @@ void add_scene(Command& c, PictureFlags& f) {
   c.custom(
       "--level", "N|auto", 1, 1,
       [&s](const auto& w) { s.level = w.back() == "auto" ? -1 : read_integer("--level", w.back(), 0, 6); },
-      "subdivision, 0 to 6 (default: auto, by pixel size)");
+      "subdivision, 0 to 6 (default: auto, until outlines and highlights show no facets)");
   c.number("--warp-angle", "DEG", s.warp_angle_deg, -360, 360, "turns the warp on the mesh");
   c.number(
       "--uv-metres", "M", s.uv_metres, 1e-6, 1e6,

@@ -38,6 +38,7 @@ int run_plan(const std::vector<std::string>& words) {
                          job.scene.environment, report.level, report.triangles));
   if (!voice.json) {
     print_result(plan_text(job.plan));
+    print_result("\n" + levels_text(job.plan, report));
     print_result(fmt::format("light is sampled by {}", job.strategy_reason.empty()
                                                            ? strategy_name(job.render.light.strategy)
                                                            : job.strategy_reason));

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/files.h"
 #include "console.h"
+#include "mesh/subdivide.h"
 #include "report/table.h"
 
 namespace sateen::app {
@@ -30,6 +33,20 @@ std::string plan_text(const Plan& plan) {
                           cost_text(p), p.reason});
   return fmt::format("planned for an error of {:.3g} %{}\n\n{}", 100 * plan.error,
                      plan.error_asked ? "" : ", since none is asked for", table_text(table));
+}
+
+std::string levels_text(const Plan& plan, const SceneReport& report) {
+  Table table{{"level", "triangles", "silhouettes off", "memory", "to set up", ""}, {}};
+  for (int level = std::max(report.level - 1, 0); level <= std::min(report.level + 1, finest_level); ++level) {
+    const double more = std::exp2(2.0 * (level - report.level));  // chords fall as the triangles grow
+    const double triangles = double(report.triangles) * more;
+    table.rows.push_back({fmt::format("{}", level), fmt::format("{:.0f}", triangles),
+                          fmt::format("{:.2g} pixels", double(plan.detail.off_pixels) / more),
+                          fmt::format("{:.0f} MB", triangles / 2 * double(bytes_per_quad) * 1e-6),
+                          fmt::format("{:.2g} s", (report.mesh_seconds + report.tracer_seconds) * more),
+                          level == report.level ? "taken" : ""});
+  }
+  return table_text(table);
 }
 
 bool report_verdicts(const Plan& plan, const std::vector<Verdict>& verdicts) {

@@ -104,6 +104,7 @@ class Turntable {
     PictureFlags& p = flags_.picture;
     set_exr_threads(p.render.threads);
     p.display = settle_display(p.display, colors_);
+    p.scene.from_all_around = flags_.turn != "light";
     scene_ = assemble_scene(p.scene, colors_, report_);
     const Turn turn = Turn(std::find(turn_names().begin(), turn_names().end(), flags_.turn) - turn_names().begin());
     report_.metered_ev = turntable_exposure(scene_.environment, turn, p.scene.camera.azimuth_deg,

@@ -17,8 +17,9 @@ struct Mesh {
   std::vector<Vec3> dpdu;     ///< scene units per UV unit: the warp direction; never zero, never NaN
   std::vector<Vec3> dpdv;     ///< scene units per UV unit
   std::vector<Vec2> uvs;
-  float metres_per_uv = 0;    ///< 0: unknown
+  float metres_per_uv = 0;  ///< 0: unknown
   Vec3 bounds_min{0, 0, 0}, bounds_max{0, 0, 0};
+  bool refined = true;              ///< false: OpenSubdiv refuses the cage, and this is the cage itself
   std::int64_t fallback_warps = 0;  ///< vertices whose warp direction had to be made up (no or degenerate UVs)
   std::string name;
   std::vector<std::string> warnings;

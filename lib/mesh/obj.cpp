@@ -283,7 +283,9 @@ ControlMesh parse_obj(std::string_view text, const std::string& name) {
 
 ControlMesh read_obj(const std::filesystem::path& path) {
   constexpr std::uint64_t limit = std::uint64_t(16) << 30;
-  const std::string text = read_text_file(path, limit);
+  std::string text = read_text_file(path, limit);
+  // Lines as the first Macintoshes ended them.
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
   return parse_obj(text, path.string());
 }
 

@@ -33,6 +33,8 @@ bool Text::next_line() {
     const char* last = line_end_;
     if (last > from && last[-1] == '\r') --last;
     if (!found || last == from || last[-1] != '\\') return true;
+    // A comment ends with its line, whatever it ends with: a folder's name must not swallow a vertex.
+    if (std::memchr(from, '#', size_t(last - from))) return true;
     from = found + 1;
   }
 }

@@ -176,6 +176,7 @@ Mesh subdivide(const ControlMesh& cage, int level, int threads) {
     if (refused) mesh = unrefined_mesh(cage);
     // What the refinement needed and gave back would otherwise stay with the process while it renders.
     malloc_trim(0);
+    mesh.refined = !refused;
     mesh.name = cage.name;
     mesh.metres_per_uv = cage.metres_per_uv;
     mesh.warnings.insert(mesh.warnings.begin(), cage.warnings.begin(), cage.warnings.end());
@@ -194,27 +195,6 @@ std::int64_t quads_at_level(const ControlMesh& cage, int level) {
   for (const int size : cage.face_sizes)
     quads += quads_of_face(size, 1 << level, cage.scheme == ControlMesh::Scheme::loop);
   return quads;
-}
-
-int automatic_level(const ControlMesh& cage, const std::function<float(const Vec3&)>& pixel_size, float pixels,
-                    std::int64_t most_quads) {
-  float longest = 0;
-  size_t at = 0;
-  for (const int size : cage.face_sizes) {
-    for (int i = 0; i < size; ++i) {
-      const Vec3& a = cage.positions[size_t(cage.position_indices[at + size_t(i)])];
-      const Vec3& b = cage.positions[size_t(cage.position_indices[at + size_t((i + 1) % size)])];
-      const float pixel = pixel_size((a + b) * 0.5f);
-      if (pixel > 0 && std::isfinite(pixel)) longest = std::max(longest, length(b - a) / pixel);
-    }
-    at += size_t(size);
-  }
-  int level = 0;
-  while (level < finest_level && longest > pixels && quads_at_level(cage, level + 1) <= most_quads) {
-    longest *= 0.5f;
-    ++level;
-  }
-  return level;
 }
 
 }  // namespace sateen

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 
 #include "mesh/control_mesh.h"
 #include "mesh/mesh.h"
@@ -26,11 +25,5 @@ Mesh subdivide(const ControlMesh& cage, int level, int threads = 0);
 
 /// Quads that subdivide() would make, holes included.
 std::int64_t quads_at_level(const ControlMesh& cage, int level);
-
-/// The smallest level at which no edge of the cage, halved once a level, covers more than `pixels` pixels, at most 6
-/// and at most `most_quads` quads. `pixel_size` gives the size of a pixel in scene units at a point; where it is not
-/// positive and finite (behind the camera) the edge does not count.
-int automatic_level(const ControlMesh& cage, const std::function<float(const Vec3&)>& pixel_size, float pixels = 2,
-                    std::int64_t most_quads = 20'000'000);
 
 }  // namespace sateen

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/missing_file.h"
+#include "base/memory.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "look/describe.h"
@@ -56,9 +57,10 @@ std::string hash_mesh(const ControlMesh& cage) {
   return hash.add(fmt::format("{} {} {}", int(cage.scheme), int(cage.boundary), int(cage.fvar_boundary))).hex();
 }
 
-// Vertices lie on the limit surface and carry its normals, so an edge of 3 pixels on a fold of 20 pixels' radius is
-// off by a twentieth of a pixel at the silhouette and by nothing in the shading.
-constexpr float longest_edge_pixels = 3;
+// Nobody asked for a finer mesh: it may take half of the memory and no more triangles than Embree builds in seconds.
+std::int64_t most_quads() {
+  return std::min<std::int64_t>(20'000'000, memory_limit() / 2 / bytes_per_quad);
+}
 
 struct Cloth {
   std::unique_ptr<const Mesh> mesh;
@@ -112,11 +114,22 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   Cloth cloth;
   // The cage encloses the surface closely enough to choose the level by; the framing is then made exact.
   const Camera rough = frame_points(cage.positions, settings.camera, settings.width, settings.height);
-  report.level = settings.level >= 0
-                     ? settings.level
-                     : automatic_level(
-                           cage, [&](const Vec3& p) { return rough.pixel_size(p); }, longest_edge_pixels);
-  auto mesh = std::make_unique<Mesh>(subdivide(cage, report.level, settings.threads));
+  auto mesh = std::make_unique<Mesh>();
+  report.level = settings.level;
+  if (settings.level >= 0) {
+    *mesh = subdivide(cage, settings.level, settings.threads);
+  } else {
+    const DetailView view = detail_view(rough, settings.from_all_around);
+    DetailedMesh made = subdivide_for_view(cage, view, most_quads(), settings.threads);
+    *mesh = std::move(made.mesh);
+    report.level = made.level;
+    if (made.level < made.wanted)
+      report.warnings.push_back(fmt::format(
+          "{}: refined to level {} where the view asks for {}, which would take {:.2g} GB: outlines may show facets "
+          "(--level {} insists)",
+          settings.mesh, made.level, made.wanted, double(quads_at_level(cage, made.wanted) * bytes_per_quad) * 1e-9,
+          made.wanted));
+  }
   report.triangles = mesh->triangles();
   report.warnings.insert(report.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   if (mesh->fallback_warps > 0)

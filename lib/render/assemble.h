@@ -13,12 +13,16 @@ inline constexpr const char* default_look = "champagne_silk_satin";
 inline constexpr const char* default_mesh = "drape";
 inline constexpr const char* default_environment = "studio_softboxes";
 
+/// What a quad takes while rendering, in the mesh and in Embree, as measured (docs/numbers.md).
+inline constexpr std::int64_t bytes_per_quad = 150;
+
 /// A scene as a user asks for it: names, paths and human units, a default on everything.
 struct SceneSettings {
   std::string look = default_look;
   std::vector<std::string> look_overrides;  ///< "warp.gamma_s_deg=4"
   std::string mesh = default_mesh;          ///< a built-in shape or the path of an OBJ
-  int level = -1;                           ///< subdivision, 0 to 6; -1: by pixel size
+  int level = -1;                           ///< subdivision, 0 to 6; -1: what the view asks for (mesh/detail.h)
+  bool from_all_around = false;             ///< object or camera turn: the level suits every side
   float warp_angle_deg = 0;                 ///< added to the look's own
   float uv_metres = 0;                      ///< cloth that one UV unit spans; 0: as the mesh says
   std::string environment = default_environment;

@@ -234,7 +234,8 @@ Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switc
   backdrop.share = pilot.backdrop;
   plan.effects.push_back(backdrop);
   plan.effects.push_back(plan_references(switches));
-  plan.effects.push_back(plan_subdivision(scene));
+  plan.detail = measure_detail(*scene.mesh, detail_view(scene.camera, false), threads);
+  plan.effects.push_back(plan_subdivision(*scene.mesh, plan.detail));
   return plan;
 }
 
@@ -251,6 +252,9 @@ void write_plan(JsonWriter& w, const Plan& plan) {
   };
   w.member("error", plan.error).member("error_asked", plan.error_asked).member("bounces", plan.bounces);
   w.member("bounce_share", plan.bounce_share);
+  w.key("detail").open_object().member("edge_pixels", plan.detail.edge_pixels);
+  w.member("off_pixels", plan.detail.off_pixels).member("normal_deg", plan.detail.normal_deg);
+  w.member("rise_pixels", plan.detail.rise_pixels).close();
   w.key("effects").open_list();
   for (const PlannedEffect& p : plan.effects) {
     const EffectInfo& info = effect_info(p.effect);

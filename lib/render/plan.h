@@ -5,6 +5,7 @@
 
 #include "film/error.h"
 #include "look/json_writer.h"
+#include "mesh/detail.h"
 #include "render/effects.h"
 
 namespace sateen {
@@ -36,6 +37,7 @@ struct Plan {
   bool error_asked = true;  ///< false: nobody asked for one, and `default_plan_error` was taken
   int bounces = 0;
   float bounce_share = 1;              ///< of the samples that follow them
+  Detail detail;                       ///< how far the picture's silhouettes and normals are from the limit surface's
   std::vector<PlannedEffect> effects;  ///< all, in the order of effect_list()
 
   const PlannedEffect& of(Effect effect) const { return effects[size_t(effect)]; }

@@ -17,7 +17,6 @@ PlannedEffect plan_lens(const Scene& scene, const EffectSwitches& switches);
 /// Off where nothing moves by half a pixel while the shutter is open.
 PlannedEffect plan_shutter(const Scene& scene, const EffectSwitches& switches);
 PlannedEffect plan_references(const EffectSwitches& switches);
-/// How far the picture's edges and silhouettes are from the limit surface's, at the level that was chosen.
-PlannedEffect plan_subdivision(const Scene& scene);
+PlannedEffect plan_subdivision(const Mesh& mesh, const Detail& detail);
 
 }  // namespace sateen

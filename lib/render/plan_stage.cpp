@@ -89,27 +89,14 @@ PlannedEffect plan_references(const EffectSwitches& switches) {
   return planned;
 }
 
-PlannedEffect plan_subdivision(const Scene& scene) {
-  const Mesh& mesh = *scene.mesh;
-  float longest = 0, off = 0;
-  for (const auto& quad : mesh.quads)
-    for (size_t k = 0; k < 4; ++k) {
-      const std::uint32_t a = quad[k], b = quad[(k + 1) % 4];
-      const Vec3 edge = mesh.positions[b] - mesh.positions[a];
-      const float pixel = scene.camera.pixel_size((mesh.positions[a] + mesh.positions[b]) * 0.5f);
-      if (!(pixel > 0)) continue;
-      const float length = edge.length() / pixel;
-      longest = std::max(longest, length);
-      // The chord of an arc that turns by an angle is off by an eighth of it times its length.
-      off = std::max(off, length * (mesh.normals[b] - mesh.normals[a]).length() / 8);
-    }
+PlannedEffect plan_subdivision(const Mesh& mesh, const Detail& detail) {
   PlannedEffect planned;
   planned.effect = Effect::subdivision;
   planned.on = true;
   planned.basis = Basis::data;
-  planned.reason =
-      fmt::format("{} triangles; edges are at most {:.2g} pixels long, silhouettes off by at most {:.2g}",
-                  mesh.triangles(), longest, off);
+  planned.reason = fmt::format("{} triangles; silhouettes off by {:.2g} of {} pixels, edges up to {:.2g} long",
+                               mesh.triangles(), detail.off_pixels, most_off_pixels, detail.edge_pixels);
+  if (detail.normal_deg > 0) planned.reason += fmt::format(", facets' normals by {:.2g} degrees", detail.normal_deg);
   return planned;
 }
 

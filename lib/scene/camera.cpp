@@ -17,6 +17,24 @@ float Camera::pixel_size(const Vec3& point) const {
   return dot(point - position, forward) * 2 * tan_x / float(width);
 }
 
+DetailView detail_view(const Camera& camera, bool from_all_around) {
+  DetailView view;
+  if (from_all_around) {
+    view.pixel_size = [camera](const Vec3& p) { return camera.pixel_size(p); };
+    return view;
+  }
+  view.eye = camera.position;
+  view.pixel_size = [camera](const Vec3& p) {
+    constexpr float beside = 1.1f;
+    const Vec3 d = p - camera.position;
+    const float depth = dot(d, camera.forward);
+    const bool seen = std::abs(dot(d, camera.right)) <= beside * camera.tan_x * depth &&
+                      std::abs(dot(d, camera.up)) <= beside * camera.tan_y * depth;
+    return seen ? camera.pixel_size(p) : 0.0f;
+  };
+  return view;
+}
+
 Camera frame_points(const std::vector<Vec3>& points, const CameraSettings& settings, int width, int height) {
   Camera camera;
   camera.width = width;

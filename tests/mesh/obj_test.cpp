@@ -56,6 +56,13 @@ TEST(Obj, TakesWindowsLinesByteOrderMarksCommentsAndContinuedLines) {
   EXPECT_EQ(parse_obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3", "a").face_sizes.size(), 1u) << "no newline at the end";
 }
 
+TEST(Obj, ACommentEndsWithItsLineThoughThatEndsInABackslash) {
+  const ControlMesh m =
+      parse_obj("# from C:\\cloth\\\nv 0 0 0\nv 1 0 0 # right \\\nv 1 1 0\nf 1 2 \\\n 3 # C:\\\nf 3 2 1\n", "a");
+  EXPECT_EQ(m.positions.size(), 3u);
+  EXPECT_EQ(m.face_sizes.size(), 2u);
+}
+
 TEST(Obj, TakesFacesThatComeBeforeTheirVertices) {
   EXPECT_EQ(parse_obj("f 1 2 3\n" + square, "a").face_sizes.size(), 1u);
   EXPECT_EQ(error_of("f 1 2 5\n" + square),
