@@ -18,7 +18,7 @@ int enough_of(const PriceList& list) {
   if (list.biased) {
     for (int i = 0; i < count; ++i)
       if (const Bias& b = list.prices[size_t(i)].bias;
-          b.visible < unseen_code && (b.error.value < unseen_error || b.error.low <= 0))
+          b.error.value <= 0 || (b.visible < unseen_code && (b.error.value < unseen_error || b.error.low <= 0)))
         return i;
     return count - 1;
   }
@@ -37,12 +37,14 @@ int asked_of(const PriceList& list) {
   return -1;
 }
 
-// Times scatter by some percent: a coarser setting that saves no more than that is chosen by chance.
+// Times scatter by some percent: a coarser setting that saves no more than that is chosen by chance, and so is a
+// finer one where nothing is known to be wrong with what was asked for.
 constexpr double least_saving = 0.05;
 bool worth_trying(const PriceList& list, size_t setting) {
   const int asked = asked_of(list);
-  if (!list.biased || asked < 0 || int(setting) >= asked) return true;
+  if (!list.biased || asked < 0 || int(setting) == asked) return true;
   const Price &coarse = list.prices[setting], &own = list.prices[size_t(asked)];
+  if (int(setting) > asked) return own.bias.error.low > 0;
   return coarse.cpu_seconds + coarse.setup_seconds < (1 - least_saving) * (own.cpu_seconds + own.setup_seconds);
 }
 

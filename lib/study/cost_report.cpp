@@ -12,8 +12,12 @@
 namespace sateen {
 
 namespace {
+// Below a millionth there is nothing but float's roundings.
+double shown_percent(double share) {
+  return share < 1e-6 ? 0 : 100 * share;
+}
 std::string percent_text(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
+  return fmt::format("{:.3g} %", shown_percent(share));
 }
 
 std::string seconds_text(double seconds) {
@@ -64,8 +68,9 @@ Table price_table(const PriceList& list) {
       row.insert(row.end(), {"held against this one", "0"});
     else if (list.has_finest)
       row.insert(row.end(), {fmt::format("{} ({:.3g} to {:.3g})", percent_text(p.bias.error.value),
-                                         100 * p.bias.error.low, 100 * p.bias.error.high),
-                             fmt::format("{:.1f} of 255{}", p.bias.visible, list.biased ? "" : ", noise")});
+                                         shown_percent(p.bias.error.low), shown_percent(p.bias.error.high)),
+                             fmt::format("{:.1f} of 255{}", p.bias.visible,
+                                         list.biased && p.bias.error.value > 0 ? "" : ", noise")});
     if (!list.biased) row.push_back(fmt::format("{:.2f}", p.noise * p.noise * p.cpu_seconds / least));
     const char* verdict = !list.biased ? "best" : i + 1 < prices.size() ? "more buys nothing" : "less can be seen";
     row.push_back(int(i) == list.enough ? verdict : "");
