@@ -69,7 +69,7 @@ int run_cost(const std::vector<std::string>& words) {
   settings.seed = flags.render.seed;
   settings.threads = flags.render.threads;
   settings.most_samples = flags.render.stop.spp;
-  settings.price_samples = std::clamp(flags.render.stop.spp / 2, 8, 64);
+  settings.price_samples = std::clamp(flags.render.stop.spp / 4, 8, 64);
   WorkProgress progress(flags.progress != ProgressStyle::none);
   const StopOnSignal stop_on_signal;
   const CostResult result = measure_cost(

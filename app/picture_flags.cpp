@@ -10,6 +10,7 @@
 #include "console.h"
 #include "look/json.h"
 #include "mesh/shapes.h"
+#include "render/quality.h"
 
 namespace sateen::app {
 
@@ -100,6 +101,7 @@ void add_quality(Command& c, PictureFlags& f) {
             fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));
   c.integer("--bounces", "N", f.render.light.bounces, 0, 64,
             "how often light may meet cloth or ground again (default: as often as the error asked for calls for)");
+  add_approximation_flags(c, f.scene.approximations);
   std::string names;
   for (const EffectInfo& info : effect_list())
     if (info.switchable) names += (names.empty() ? "" : ", ") + info.name;
@@ -156,21 +158,17 @@ ProgressStyle progress_style(const PictureFlags& f) {
   return error_is_terminal() ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
-/// The error that a quality asks for where the command line does not: those that `sateen cost` recommends for.
-struct Quality {
-  std::string name;
-  double error;
-};
+/// The error that a quality asks for, where the command line does not.
 void settle_quality(const std::string& name, RenderSettings& render) {
-  static const std::vector<Quality> all{{"draft", 0.10}, {"preview", 0.04}, {"final", 0.01}};
   if (name.empty()) return;
-  for (const Quality& quality : all)
-    if (quality.name == name) {
-      if (render.stop.error == 0) render.stop.error = quality.error;
-      return;
-    }
-  throw InputError(fmt::format("there is no quality {}", shown_name(name)),
-                   suggestion(name, {"draft", "preview", "final"}));
+  std::vector<std::string> known;
+  for (const NamedQuality& quality : named_qualities) {
+    known.push_back(quality.name);
+    if (name != quality.name) continue;
+    if (render.stop.error == 0) render.stop.error = quality.error;
+    return;
+  }
+  throw InputError(fmt::format("there is no quality {}", shown_name(name)), suggestion(name, known));
 }
 }  // namespace
 
@@ -240,6 +238,12 @@ std::vector<std::string> read_layers(const std::string& list) {
     chosen.push_back(word);
   }
   return chosen;
+}
+
+void add_approximation_flags(Command& command, Approximations& to) {
+  for (const Approximation& each : approximation_list())
+    command.custom(
+        each.flag, each.value, 1, 1, [&each, &to](const auto& w) { each.read(w.back(), to); }, each.help);
 }
 
 double read_duration(const std::string& what, const std::string& text) {

@@ -33,6 +33,9 @@ struct PictureFlags {
 /// Names the flags in `command`, which writes into `flags` when it parses.
 void add_picture_flags(Command& command, PictureFlags& flags);
 
+/// Flags of what the renderer approximates (render/approximations.h), in the group that is open.
+void add_approximation_flags(Command& command, Approximations& to);
+
 /// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress,
 /// voice. `default_spp` is what is rendered when no stop rule was given.
 void settle_picture_flags(const Command& command, PictureFlags& flags, int default_spp);

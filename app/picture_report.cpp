@@ -109,6 +109,8 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   if (!job.verdicts.empty()) write_verdicts(w, job.verdicts);
   w.close();
   w.member("bounces", job.render.light.bounces).member("bounce_share", job.render.light.bounce_share);
+  for (const Approximation& each : approximation_list())
+    w.member(underscored(each.name), each.text(s.approximations));
   w.member("seed", job.render.seed);
   w.member("adaptive", job.render.adaptive).member("samples_from", job.first_sample);
   w.member("threads", thread_count(job.render.threads));

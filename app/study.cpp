@@ -67,6 +67,7 @@ void describe(Command& c, StudyFlags& f) {
       "CPU time that the whole may take, about: 10m, 1h (default: 10m)");
   c.flag("--quick", f.quick, "a minute: satin alone, three lights, smaller renders");
   c.flag("--pictures", s.pictures, "pictures to compare (default)");
+  add_approximation_flags(c, s.scene.approximations);
   c.integer("-t,--threads", "N", s.threads, 0, 4096, "0: all that this process may use (default)");
   c.group("Output");
   c.text("-o,--output", "FOLDER", f.folder, fmt::format("where all of it goes (default: {})", f.folder));

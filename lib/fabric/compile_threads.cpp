@@ -107,9 +107,11 @@ Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp,
   add_families(threads, look, warp, weft);
   if (threads.start.empty()) throw InputError("the look has no threads: both coverages are 0");
   if (threads.start.size() + padding > most_tangents)
-    throw InputError(fmt::format("the tangent curves need {} tangents, at most {} are possible", threads.start.size(),
-                                 most_tangents - padding),
-                     "widen gamma_s_deg or gamma_v_deg, or give the curve fewer sloping pieces");
+    throw InputError(
+        fmt::format("the tangent curves need {} tangents, at most {} are possible", threads.start.size(),
+                    most_tangents - padding),
+        "lower --quadrature where it is above 1, widen gamma_s_deg or gamma_v_deg, or give the curve fewer sloping "
+        "pieces");
   for (int k = int(threads.start.size()) - 1; k >= 0; --k) threads.first[threads.along_x[size_t(k)] > 0 ? 0 : 1] = k;
   pad(threads);
   for (int family = 0; family < 2; ++family) {

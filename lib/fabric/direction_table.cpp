@@ -201,12 +201,13 @@ Angles right_angles(float ya, float xa, float yb, float xb, float yc = 0, float 
 }  // namespace
 
 DirectionTable tabulate_directions(const Threads<float>& threads, float volume_warp, float volume_weft, bool mirror_x,
-                                   bool mirror_y, int threads_used) {
+                                   bool mirror_y, int threads_used, double size) {
   DirectionTable table;
   table.mirror_x = mirror_x;
   table.mirror_y = mirror_y;
-  table.s_nodes = mirror_x ? half_s_nodes : 2 * half_s_nodes - 1;
-  table.phi_nodes = mirror_y ? half_phi_nodes : 2 * half_phi_nodes - 1;
+  const auto half_of = [&](int usual) { return std::max(int(std::lround(usual * size)), 2); };
+  table.s_nodes = mirror_x ? half_of(half_s_nodes) : 2 * half_of(half_s_nodes) - 1;
+  table.phi_nodes = mirror_y ? half_of(half_phi_nodes) : 2 * half_of(half_phi_nodes) - 1;
   const int nodes = table.s_nodes * table.phi_nodes;
   table.node_theta.resize(nodes);
   table.cumulative.resize(size_t(nodes) * (cells + 1));

@@ -26,10 +26,10 @@ struct DirectionTable {
   static constexpr int theta_cells = 64, phi_cells = 40, cells = theta_cells * phi_cells;
 
   bool mirror_x = false, mirror_y = false;  ///< tabulated for w.x >= 0 or w.y >= 0 alone
-  int s_nodes = 0, phi_nodes = 0;
-  std::vector<float> node_theta;          ///< theta of view node [s][phi]
-  std::vector<std::uint32_t> cumulative;  ///< [s][phi][cells + 1], 2^32 scale; the last entry, 2^32, is stored as 0
-  std::vector<std::uint32_t> row_start;   ///< [s][phi][theta_cells]: every phi_cells-th of those, side by side
+  int s_nodes = 0, phi_nodes = 0;           ///< 2 or more
+  std::vector<float> node_theta;            ///< theta of view node [s][phi]
+  std::vector<std::uint32_t> cumulative;    ///< [s][phi][cells + 1], 2^32 scale; the last entry, 2^32, is stored as 0
+  std::vector<std::uint32_t> row_start;     ///< [s][phi][theta_cells]: every phi_cells-th of those, side by side
 };
 
 struct ColumnGrid;
@@ -44,9 +44,10 @@ struct TableView {
   float flip_x = 1, flip_y = 1;
 };
 
-/// Tabulates S_0 + S_1 + a_0 V_0 + a_1 V_1 with the volume colours' means a. Deterministic.
+/// Tabulates S_0 + S_1 + a_0 V_0 + a_1 V_1 with the volume colours' means a. Deterministic. `size` times the usual
+/// number of views in either axis.
 DirectionTable tabulate_directions(const Threads<float>& threads, float volume_warp, float volume_weft, bool mirror_x,
-                                   bool mirror_y, int threads_used = 1);
+                                   bool mirror_y, int threads_used = 1, double size = 1);
 
 /// Heights [radians] over the horizon of the columns' edges, 0 to pi/2, on either side of the warp. Rows are
 /// theta_cells equal parts of theta + turn, wrapped. Inside a cell the density times cos theta is constant for each

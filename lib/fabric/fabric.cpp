@@ -84,7 +84,7 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
   fabric.name = look.name;
   const auto quadrature = [&](const ThreadFamily& f, float narrowest) {
     return render_quadrature(f.offsets_deg, f.lengths, std::min(narrowest_lobe(f), double(narrowest)),
-                             double(radians(look.masking_width_deg)));
+                             double(radians(look.masking_width_deg)), double(parts.quadrature));
   };
   const std::vector<Tangent> warp = quadrature(look.warp, parts.narrowest[0]),
                              weft = quadrature(look.weft, parts.narrowest[1]);
@@ -112,7 +112,8 @@ Fabric compile_fabric(const Look& look, const ToWorking& to_working, const Fabri
     Threads<float> threads = compile_threads<float>(look, coarse(look.warp), coarse(look.weft));
     threads.grazing.clear();
     fabric.table = tabulate_directions(threads, mean_component(fabric.A[0]), mean_component(fabric.A[1]),
-                                       symmetric(look.warp, warp), symmetric(look.weft, weft), parts.threads);
+                                       symmetric(look.warp, warp), symmetric(look.weft, weft), parts.threads,
+                                       double(parts.table_size));
   }
   return fabric;
 }

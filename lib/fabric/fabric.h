@@ -61,8 +61,10 @@ struct FabricView {
 
 /// Parts of a Fabric that are not always wanted.
 struct FabricParts {
-  bool table = true;  ///< the direction table: most of the compile time
-  int threads = 1;    ///< for the table
+  bool table = true;     ///< the direction table: most of the compile time
+  int threads = 1;       ///< for the table
+  float quadrature = 1;  ///< how finely tangent curves are sampled, times the usual
+  float table_size = 1;  ///< views of the table in either axis, times the usual
   /// Widths of the narrowest lobes of warp and weft that any point has, where narrower than the look's [radians].
   std::array<float, 2> narrowest{10, 10};
 };

@@ -70,9 +70,9 @@ std::vector<Tangent> tangent_quadrature(const std::vector<float>& offsets_deg, c
 }
 
 std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
-                                       double gamma, double masking_width) {
+                                       double gamma, double masking_width, double fineness) {
   const double widest = std::min(1.25 * masking_width, 25 * to_radians);
-  return tangent_quadrature(offsets_deg, lengths, gamma, 8.0, widest, panel_nodes);
+  return tangent_quadrature(offsets_deg, lengths, gamma, 8.0 / fineness, widest / fineness, panel_nodes);
 }
 
 std::vector<Tangent> table_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,

@@ -38,9 +38,10 @@ inline constexpr int panel_nodes = 8;
 /// The quadrature that the renderer uses: its error against a fine one is below 1e-3 of the peak of F at that view
 /// for every look of the project (tests/fabric/precision_test.cpp; 1e-2 where a direction is within 0.6 degrees of
 /// the horizon). Panels of 8 gamma, of 1.25 sigma (`masking_width` [radians], the width of u in M and P) and of 25
-/// degrees at most: the lobe, the masking and the angles must each look like a polynomial within a panel.
+/// degrees at most: the lobe, the masking and the angles must each look like a polynomial within a panel. Panels are
+/// `fineness` times as short.
 std::vector<Tangent> render_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,
-                                       double gamma, double masking_width);
+                                       double gamma, double masking_width, double fineness = 1);
 
 /// A quadrature with an error of about a hundredth of the peak, half as many nodes: enough for the direction table.
 std::vector<Tangent> table_quadrature(const std::vector<float>& offsets_deg, const std::vector<float>& lengths,

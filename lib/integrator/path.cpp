@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "film/filter.h"
 #include "integrator/bounces.h"
 #include "integrator/ground_light.h"
 
@@ -206,7 +205,7 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
   const Batch2 film = draw2(all, Dimension::film);
   std::array<Ray, batch_size> rays;
   for (size_t k = 0; k < samples.size(); ++k) {
-    const Vec2 place = sample_filter(film[k]);
+    const Vec2 place = sample_filter(*scene.filter, film[k]);
     rays[k] = scene.camera.ray(float(samples[k].x) + 0.5f + place.x, float(samples[k].y) + 0.5f + place.y);
   }
   if (scene.lens) through_lens(scene.camera, *scene.lens, draw2(all, Dimension::lens), {rays.data(), samples.size()});

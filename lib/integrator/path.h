@@ -10,8 +10,8 @@ struct CameraSample {
   BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth or ground
   Color through_gaps{0, 0, 0};  ///< light of the layers behind the first, seen through its gaps
   Color backdrop{0, 0, 0};      ///< and the direct light of the ground
-  float alpha = 0;   ///< 1 where the backdrop is seen, else the cloth's opacity
-  bool hit = false;  ///< the values below are those of the first surface met
+  float alpha = 0;              ///< 1 where the backdrop is seen, else the cloth's opacity
+  bool hit = false;             ///< the values below are those of the first surface met
   Vec3 position{0, 0, 0}, normal{0, 0, 0}, warp{0, 0, 0};
   Vec2 uv{0, 0};
   Vec3 wo{0, 0, 1};   ///< cloth frame
@@ -21,7 +21,7 @@ struct CameraSample {
 };
 
 /// Up to batch_size samples of one picture, side by side; those that run close together, as in one pixel, gain most.
-/// A sample has the same bits in any batch. Pixel filter: see film/filter.h.
+/// A sample has the same bits in any batch. Pixel filter: see scene/filter.h.
 void trace_samples(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
                    std::span<const SampleId> samples, PathScratch& scratch, CameraSample* out);
 

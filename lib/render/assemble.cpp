@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/missing_file.h"
 #include "base/memory.h"
+#include "base/missing_file.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "look/describe.h"
@@ -23,6 +23,7 @@
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
 #include "scene/environment_inspect.h"
+#include "scene/environment_size.h"
 #include "scene/near_weave.h"
 
 namespace sateen {
@@ -167,6 +168,32 @@ std::string hash_environment(const Environment& environment) {
 
 }  // namespace
 
+std::vector<std::string> compile_looks(const Look& look, const SceneSettings& settings, const ColorManager& colors,
+                                       Scene& scene) {
+  FabricParts parts;
+  parts.threads = settings.threads;
+  parts.quadrature = settings.approximations.quadrature;
+  parts.table_size = settings.approximations.table_size;
+  CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg);
+  std::optional<CompiledSide> back;
+  if (!look.back.empty()) back = compile_side(read_back(look), colors, parts);
+  std::vector<std::string> warnings = front.warnings;
+  if (back) warnings.insert(warnings.end(), back->warnings.begin(), back->warnings.end());
+  set_sides(scene, std::move(front), std::move(back));
+  return warnings;
+}
+
+Environment read_light(const SceneSettings& settings, const ColorManager& colors) {
+  EnvironmentFileOptions options;
+  options.color_space = settings.environment_space;
+  options.rotation_deg = settings.environment_rotation_deg;
+  options.exposure_ev = settings.environment_ev;
+  Environment map = read_environment(settings.environment, colors, options);
+  const int width = settings.approximations.map_size;
+  if (width <= 0 || width >= map.width) return map;
+  return shrink_environment(map, width, int(std::lround(double(map.height) * width / map.width)));
+}
+
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report) {
   const Look look = read_look(settings.look, settings.look_overrides);
   report.look = look;
@@ -182,11 +209,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   std::future<Cloth> cloth = std::async(std::launch::async, [&] { return build_cloth(settings, report); });
   std::future<Environment> environment = std::async(std::launch::async, [&] {
     const double start = now();
-    EnvironmentFileOptions options;
-    options.color_space = settings.environment_space;
-    options.rotation_deg = settings.environment_rotation_deg;
-    options.exposure_ev = settings.environment_ev;
-    Environment map = read_environment(settings.environment, colors, options);
+    Environment map = read_light(settings, colors);
     report.environment_hash = hash_environment(map);
     report.metered_ev = metered_towards(map, settings.camera.azimuth_deg, settings.environment_ev);
     report.environment_seconds = now() - start;
@@ -194,17 +217,10 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   });
   Scene scene;
   const double start = now();
-  FabricParts parts;
-  parts.threads = settings.threads;
   std::exception_ptr failure;
   std::vector<std::string> warnings;
   try {
-    CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg);
-    std::optional<CompiledSide> back;
-    if (!look.back.empty()) back = compile_side(read_back(look), colors, parts);
-    warnings = front.warnings;
-    if (back) warnings.insert(warnings.end(), back->warnings.begin(), back->warnings.end());
-    set_sides(scene, std::move(front), std::move(back));
+    warnings = compile_looks(look, settings, colors, scene);
   } catch (...) {
     failure = std::current_exception();  // the other two still hold references to this frame
   }
@@ -217,6 +233,8 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.mesh = std::move(built.mesh);
   scene.rays = std::move(built.rays);
   scene.camera = built.camera;
+  scene.filter = settings.approximations.filter == FilterSettings() ? default_filter()
+                                                                    : compile_filter(settings.approximations.filter);
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "image/color.h"
+#include "render/approximations.h"
 #include "render/stage.h"
 #include "scene/scene.h"
 
@@ -34,6 +35,7 @@ struct SceneSettings {
   Backdrop backdrop = Backdrop::none;
   Color backdrop_color{0, 0, 0};
   StageSettings stage;
+  Approximations approximations;
   int threads = 0;
 };
 
@@ -50,5 +52,12 @@ struct SceneReport {
 
 /// Reads, compiles and joins everything that a picture needs. Look, mesh and map are worked on side by side.
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report);
+
+/// Compiles the look, and the one of its back, into a scene. Returns warnings.
+std::vector<std::string> compile_looks(const Look& look, const SceneSettings& settings, const ColorManager& colors,
+                                       Scene& scene);
+
+/// Reads the light that the settings name, at the size that they ask for.
+Environment read_light(const SceneSettings& settings, const ColorManager& colors);
 
 }  // namespace sateen

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/files.h"
 #include "look/describe.h"
 
@@ -40,13 +42,18 @@ std::string stop_reason_text(StopReason reason) {
   return "interrupted";
 }
 
+std::string underscored(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
 std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& report) {
   const SceneSettings& s = job.scene;
   const CameraSettings& c = s.camera;
   const RenderSettings& r = job.render;
   const auto number = [](const auto& v) { return fmt::format("{}", v); };
   const auto named = [](const std::string& name, const std::string& hash) { return name + " (" + hash + ")"; };
-  return {
+  std::vector<Fact> facts{
       {"version", job.version, {}},
       {"look", report.look_hash, named(report.look.name, report.look_hash)},
       {"mesh", report.mesh_hash, named(s.mesh, report.mesh_hash)},
@@ -80,6 +87,9 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
       {"colour config", job.color_config, {}},
       {"working space", job.working_space, {}},
   };
+  for (const Approximation& each : approximation_list())
+    facts.push_back({each.name, each.text(s.approximations), {}});
+  return facts;
 }
 
 std::string job_hash(const PictureJob& job, const SceneReport& report) {
@@ -139,6 +149,8 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   if (!job.strategy_reason.empty()) text("strategy_reason", job.strategy_reason);
   whole("candidates", r.light.candidates);
   whole("bounces", r.light.bounces);
+  for (const Approximation& each : approximation_list())
+    text(underscored(each.name).c_str(), each.text(s.approximations));
   real("bounce_share", double(r.light.bounce_share));
   text("effects", job.effects);
   text("plan", plan_json(job.plan));

@@ -22,9 +22,9 @@ struct PictureJob {
   std::string color_config;       ///< ColorManager::description()
   std::string working_space;
   std::string version, command_line;
-  int first_sample = 0;  ///< number of a pixel's first sample
+  int first_sample = 0;     ///< number of a pixel's first sample
   bool references = false;  ///< balls and chart laid over the picture
-  std::string turn;      ///< of a turntable's frame, "object 40"; empty for a still
+  std::string turn;         ///< of a turntable's frame, "object 40"; empty for a still
 };
 
 /// One thing that decides what samples see. `shown`: how people are told of the value; empty: as it is.
@@ -42,6 +42,9 @@ std::string job_hash(const PictureJob& job, const SceneReport& report);
 
 /// The `sateen:*` attributes of a finished picture (README.md lists them) and Software.
 Attributes picture_attributes(const PictureJob& job, const SceneReport& report, const RenderResult& result);
+
+/// A name with _ for its blanks, as attributes and JSON have it.
+std::string underscored(std::string name);
 
 /// "samples", "error", "time", "interrupted".
 std::string stop_reason_text(StopReason reason);

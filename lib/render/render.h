@@ -13,8 +13,9 @@ namespace sateen {
 
 /// When to stop: whichever of the three is met first. 0: not asked.
 struct StopRules {
-  int spp = 0;         ///< samples per pixel; their mean where samples are dealt out by error
-  double error = 0;    ///< upper end of the interval of E (film/error.h), looked at at barriers (render/allocation.h)
+  int spp = 0;       ///< samples per pixel; their mean where samples are dealt out by error
+  double error = 0;  ///< upper end of the interval of E (film/error.h), looked at at barriers (render/allocation.h),
+                     ///< a coarse one before the first, too
   double seconds = 0;  ///< wall clock, from the start of render()
 
   bool operator==(const StopRules&) const = default;

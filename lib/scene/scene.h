@@ -8,6 +8,7 @@
 #include "scene/camera.h"
 #include "scene/cloth_maps.h"
 #include "scene/environment.h"
+#include "scene/filter.h"
 #include "scene/ground.h"
 #include "scene/lens.h"
 #include "scene/openness.h"
@@ -34,6 +35,7 @@ struct Scene {
   std::optional<Fabric> back;  ///< of the cloth; empty: the same as the front
   Environment environment;
   Camera camera;
+  std::shared_ptr<const PixelFilter> filter = default_filter();
   Backdrop backdrop = Backdrop::none;
   Color backdrop_color{0, 0, 0};      ///< working space
   std::optional<BlurredMap> blurred;  ///< for Backdrop::blurred alone

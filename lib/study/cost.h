@@ -22,15 +22,15 @@ struct CostSettings {
   std::uint32_t seed = 1;
   int threads = 0;
   int most_samples = 128;  ///< of the error against time
-  int price_samples = 64;  ///< of every setting
-  int pixels = 192 * 108;  ///< measured on a smaller picture of about so many pixels; times are scaled to the whole
+  int price_samples = 32;  ///< of every setting
+  int pixels = 160 * 90;   ///< measured on a smaller picture of about so many pixels; times are scaled to the whole
   int seeds = 3;           ///< of the error against time
 };
 
 /// Error and time of whole pictures at one number of samples.
 struct CostPoint {
   int samples = 0;
-  double cpu_seconds = 0;    ///< of the picture as asked, scaled from the measured one
+  double cpu_seconds = 0;    ///< of the picture as asked, scaled from the measured one; least of the seeds
   Interval true_error;       ///< E against the reference, over the seeds
   double claimed_error = 0;  ///< E as the program says it, mean of the seeds
 };
@@ -39,19 +39,20 @@ struct CostPoint {
 struct Price {
   std::string setting;             ///< "level 2"
   std::vector<std::string> flags;  ///< that ask for it on the command line; empty where there are none
-  double cpu_seconds = 0;          ///< of the picture as asked, at CostSettings::price_samples
-  double setup_seconds = 0;        ///< CPU-seconds before the first sample, where the setting changes them
+  double cpu_seconds = 0;          ///< of the picture as asked, at CostSettings::price_samples; least of the renders
+  double setup_seconds = 0;        ///< CPU-seconds before the first sample for what the setting decides over
   double noise = 0;                ///< E at price_samples: as claimed; true where `biased` is false
-  Bias bias;                       ///< against the finest setting; zero for what only changes the noise
+  Bias bias;                       ///< against the finest setting; zero where there is none
   Image picture;                   ///< display-referred
 };
 struct PriceList {
-  std::string name;     ///< "subdivision level"
-  bool biased = true;   ///< false: all settings converge to the same picture, and noise^2 x time decides
-  bool advised = true;  ///< the qualities choose from it; not where there is no flag, or another list holds it too
-  std::vector<Price> prices;  ///< cheapest first, the finest last
-  int enough = -1;            ///< the first setting that more buys nothing over
-  std::string note;
+  std::string name;        ///< "subdivision level"
+  bool biased = true;      ///< false: all settings converge to the same picture, and noise^2 x time decides
+  bool has_finest = true;  ///< false: none is finer than another, as of strategies, and no bias is measured
+  bool advised = true;  ///< the qualities choose from it; not where that gains nothing, or another list holds it too
+  std::vector<Price> prices = {};  ///< cheapest first, the finest last
+  int enough = -1;                 ///< the first setting that more buys nothing over
+  std::string note = {};
 };
 
 /// What to render with for a quality, by the prices.
@@ -76,7 +77,6 @@ struct CostResult {
   std::vector<PriceList> lists;
   Plan plan;  ///< for E 1 %; the effects of all pictures
   Bill bill;
-  std::vector<std::string> fixed;  ///< approximations that this version cannot vary, one sentence each
   std::vector<Quality> qualities;
   std::vector<PlotPoint> frontier;  ///< E against CPU-seconds over all combinations of settings
   std::vector<std::pair<std::string, Image>> ladder_pictures;

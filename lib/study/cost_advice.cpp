@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/quality.h"
 #include "study/cost.h"
 
 namespace sateen {
@@ -17,7 +18,7 @@ int enough_of(const PriceList& list) {
   if (list.biased) {
     for (int i = 0; i < count; ++i)
       if (const Bias& b = list.prices[size_t(i)].bias;
-          b.visible < unseen_code && (b.error.value < unseen_error || b.error.low <= 0))
+          b.error.value <= 0 || (b.visible < unseen_code && (b.error.value < unseen_error || b.error.low <= 0)))
         return i;
     return count - 1;
   }
@@ -28,6 +29,35 @@ int enough_of(const PriceList& list) {
   for (int i = 1; i < count; ++i)
     if (price(i) < price(best)) best = i;
   return best;
+}
+
+int asked_of(const PriceList& list) {
+  for (size_t i = 0; i < list.prices.size(); ++i)
+    if (list.prices[i].setting.find("(asked)") != std::string::npos) return int(i);
+  return -1;
+}
+
+// Times scatter by some percent: a coarser setting that saves no more than that is chosen by chance, and so is a
+// finer one where nothing is known to be wrong with what was asked for.
+constexpr double least_saving = 0.05;
+bool worth_trying(const PriceList& list, size_t setting) {
+  const int asked = asked_of(list);
+  if (!list.biased || asked < 0 || int(setting) == asked) return true;
+  const Price &coarse = list.prices[setting], &own = list.prices[size_t(asked)];
+  if (int(setting) > asked) return own.bias.error.low > 0;
+  return coarse.cpu_seconds + coarse.setup_seconds < (1 - least_saving) * (own.cpu_seconds + own.setup_seconds);
+}
+
+// CPU-seconds of the picture at a number of samples, by the straight line in logarithms between the two measured
+// about it: few samples of a pixel are dearer each.
+double seconds_at(const std::vector<CostPoint>& points, double samples) {
+  const CostPoint& last = points.back();
+  if (samples >= last.samples) return last.cpu_seconds * samples / last.samples;
+  size_t i = 1;
+  while (i + 1 < points.size() && points[i].samples < samples) ++i;
+  const CostPoint &low = points[i - 1], &high = points[i];
+  const double share = std::log(samples / low.samples) / std::log(double(high.samples) / low.samples);
+  return std::exp((1 - share) * std::log(low.cpu_seconds) + share * std::log(high.cpu_seconds));
 }
 
 // One setting of every list, with what it does to the whole: factors of time and noise over the measured base, bias.
@@ -48,12 +78,13 @@ std::vector<Combination> combinations(const CostResult& result) {
     const Price& fine = list.prices.back();
     for (const Combination& c : all)
       for (size_t i = 0; i < list.prices.size(); ++i) {
+        if (!worth_trying(list, i)) continue;
         const Price& p = list.prices[i];
         Combination with = c;
         with.chosen.push_back(int(i));
         with.time *= p.cpu_seconds / fine.cpu_seconds;
         with.noise *= list.biased ? 1 : p.noise / fine.noise;
-        with.bias = std::hypot(with.bias, p.bias.error.value);
+        if (list.biased) with.bias = std::hypot(with.bias, p.bias.error.value);
         with.setup += p.setup_seconds;
         next.push_back(std::move(with));
       }
@@ -79,15 +110,13 @@ void settle_advice(CostResult& result) {
   for (const CostPoint& p : result.points) curve.push_back({double(p.samples), p.true_error.value});
   const PowerFit noise = fit_power(curve);
   if (!noise.known || noise.slope >= 0) return;
-  const double second_per_sample = result.points.back().cpu_seconds / result.points.back().samples;
   double base_time = 1, base_noise = 1;
   for (const PriceList& list : result.lists) {
     if (!list.advised) continue;
-    const auto used = std::find_if(list.prices.begin(), list.prices.end(),
-                                   [&](const Price& p) { return p.setting.find("(asked)") != std::string::npos; });
-    if (used == list.prices.end()) continue;
-    base_time *= list.prices.back().cpu_seconds / used->cpu_seconds;
-    if (!list.biased) base_noise *= list.prices.back().noise / used->noise;
+    if (asked_of(list) < 0) continue;
+    const Price &fine = list.prices.back(), &used = list.prices[size_t(asked_of(list))];
+    base_time *= fine.cpu_seconds / used.cpu_seconds;
+    if (!list.biased) base_noise *= fine.noise / used.noise;
   }
   const std::vector<Combination> all = combinations(result);
   const auto best = [&](double target) {
@@ -99,7 +128,7 @@ void settle_advice(CostResult& result) {
       const double exact = std::pow(wanted / (noise.factor * base_noise * c.noise), 1 / noise.slope);
       if (!(exact < 1e6)) continue;
       const int samples = std::max(replicates, int(std::ceil(exact / replicates)) * replicates);
-      const double seconds = samples * second_per_sample * base_time * c.time + c.setup;
+      const double seconds = seconds_at(result.points, samples) * base_time * c.time + c.setup;
       if (found.reached && seconds >= found.cpu_seconds) continue;
       found.reached = true;
       found.samples = samples;
@@ -110,13 +139,8 @@ void settle_advice(CostResult& result) {
     }
     return found;
   };
-  struct Named {
-    const char* name;
-    double target;
-  };
-  // By eye on the shipped looks: noise stands out above 10 %, can be worked with at 4 %, and is gone at 1 %.
-  for (const Named& each : {Named{"draft", 0.10}, Named{"preview", 0.04}, Named{"final", 0.01}}) {
-    Quality quality = best(each.target);
+  for (const NamedQuality& each : named_qualities) {
+    Quality quality = best(each.error);
     quality.name = each.name;
     if (quality.reached) {
       quality.flags = fmt::format("--spp {}", quality.samples);

@@ -16,10 +16,10 @@ void write_interval(JsonWriter& w, const char* name, const Interval& i) {
   w.key(name).open_object().member("value", i.value).member("low", i.low).member("high", i.high).close();
 }
 
-void write_price(JsonWriter& w, const Price& p, bool biased) {
+void write_price(JsonWriter& w, const Price& p, const PriceList& list) {
   w.open_object().member("setting", p.setting).member("cpu_seconds", p.cpu_seconds);
   w.member("setup_seconds", p.setup_seconds).member("noise", p.noise);
-  if (biased) {
+  if (list.has_finest) {
     write_interval(w, "bias", p.bias.error);
     w.member("visible_code_values", p.bias.visible);
   }
@@ -29,18 +29,22 @@ void write_price(JsonWriter& w, const Price& p, bool biased) {
 }
 
 Table csv_table(const CostResult& result) {
-  Table table{{"part", "setting", "samples", "cpu_seconds", "error", "low", "high", "claimed_or_noise", "visible"},
+  Table table{{"part", "setting", "samples", "cpu_seconds", "setup_seconds", "error", "low", "high",
+               "claimed_or_noise", "visible", "enough"},
               {}};
   for (const CostPoint& p : result.points)
-    table.rows.push_back({"error against time", "", std::to_string(p.samples), number_text(p.cpu_seconds, 6),
+    table.rows.push_back({"error against time", "", std::to_string(p.samples), number_text(p.cpu_seconds, 6), "",
                           number_text(p.true_error.value, 6), number_text(p.true_error.low, 6),
-                          number_text(p.true_error.high, 6), number_text(p.claimed_error, 6), ""});
+                          number_text(p.true_error.high, 6), number_text(p.claimed_error, 6), "", ""});
   for (const PriceList& list : result.lists)
-    for (const Price& p : list.prices)
+    for (size_t i = 0; i < list.prices.size(); ++i) {
+      const Price& p = list.prices[i];
       table.rows.push_back({list.name, p.setting, std::to_string(result.settings.price_samples),
-                            number_text(p.cpu_seconds, 6), number_text(p.bias.error.value, 6),
-                            number_text(p.bias.error.low, 6), number_text(p.bias.error.high, 6),
-                            number_text(p.noise, 6), number_text(p.bias.visible, 4)});
+                            number_text(p.cpu_seconds, 6), number_text(p.setup_seconds, 4),
+                            number_text(p.bias.error.value, 6), number_text(p.bias.error.low, 6),
+                            number_text(p.bias.error.high, 6), number_text(p.noise, 6),
+                            number_text(p.bias.visible, 4), int(i) == list.enough ? "yes" : ""});
+    }
   return table;
 }
 
@@ -78,16 +82,14 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
     w.open_object().member("name", list.name).member("biased", list.biased).member("note", list.note);
     if (list.enough >= 0) w.member("enough", list.prices[size_t(list.enough)].setting);
     w.key("settings").open_list();
-    for (const Price& p : list.prices) write_price(w, p, list.biased);
+    for (const Price& p : list.prices) write_price(w, p, list);
     w.close().close();
   }
   w.close().key("plan").open_object();
   write_plan(w, result.plan);
   w.close();
   write_bill(w, result.bill);
-  w.key("not_variable").open_list();
-  for (const std::string& each : result.fixed) w.value(each);
-  w.close().key("qualities").open_object();
+  w.key("qualities").open_object();
   for (const Quality& q : result.qualities) {
     w.key(q.name).open_object().member("target", q.target).member("reached", q.reached);
     if (q.reached)
@@ -146,8 +148,6 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
     page.section("The bill of effects");
     add_bill(page, result.bill);
   }
-  page.section("Not variable");
-  for (const std::string& each : result.fixed) page.note(each + ".");
   page.section("How it was measured");
   page.paragraph(
       fmt::format("On a picture of {} x {} pixels with the subdivision level of the whole one; CPU-seconds are "

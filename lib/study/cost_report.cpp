@@ -12,8 +12,12 @@
 namespace sateen {
 
 namespace {
+// Below a millionth there is nothing but float's roundings.
+double shown_percent(double share) {
+  return share < 1e-6 ? 0 : 100 * share;
+}
 std::string percent_text(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
+  return fmt::format("{:.3g} %", shown_percent(share));
 }
 
 std::string seconds_text(double seconds) {
@@ -44,26 +48,32 @@ Table point_table(const CostResult& result) {
 }
 
 Table price_table(const PriceList& list) {
-  Table table;
-  table.head = {list.name, "CPU-seconds", "noise E"};
-  if (list.biased)
-    table.head.insert(table.head.end(), {"bias as E (95 % interval)", "largest visible difference", ""});
-  else
-    table.head.insert(table.head.end(), {"noise^2 x time, least = 1", ""});
+  const auto& prices = list.prices;
+  const bool setup = std::any_of(prices.begin(), prices.end(), [](const Price& p) { return p.setup_seconds > 0; });
+  Table table{{list.name, "CPU-seconds"}, {}};
+  if (setup) table.head.push_back("to start");
+  table.head.push_back("noise E");
+  if (list.has_finest)
+    table.head.insert(table.head.end(), {"bias as E (95 % interval)", "largest visible difference"});
+  if (!list.biased) table.head.push_back("noise^2 x time, least = 1");
+  table.head.push_back("");
   double least = 1e300;
-  for (const Price& p : list.prices) least = std::min(least, p.noise * p.noise * p.cpu_seconds);
-  for (size_t i = 0; i < list.prices.size(); ++i) {
-    const Price& p = list.prices[i];
-    std::vector<std::string> row{p.setting, number_text(p.cpu_seconds), number_text(p.noise)};
-    if (!list.biased)
-      row.push_back(fmt::format("{:.2f}", p.noise * p.noise * p.cpu_seconds / least));
-    else if (i + 1 == list.prices.size())
-      row.insert(row.end(), {"the finest", "0"});
-    else
-      row.insert(row.end(), {fmt::format("{} ({} to {})", percent_text(p.bias.error.value),
-                                         percent_text(p.bias.error.low), percent_text(p.bias.error.high)),
-                             fmt::format("{:.1f} of 255", p.bias.visible)});
-    row.push_back(int(i) == list.enough ? (list.biased ? "more buys nothing" : "best") : "");
+  for (const Price& p : prices) least = std::min(least, p.noise * p.noise * p.cpu_seconds);
+  for (size_t i = 0; i < prices.size(); ++i) {
+    const Price& p = prices[i];
+    std::vector<std::string> row{p.setting, number_text(p.cpu_seconds)};
+    if (setup) row.push_back(fmt::format("{:.2g}", p.setup_seconds));
+    row.push_back(number_text(p.noise));
+    if (list.has_finest && i + 1 == prices.size())
+      row.insert(row.end(), {"held against this one", "0"});
+    else if (list.has_finest)
+      row.insert(row.end(), {fmt::format("{} ({:.3g} to {:.3g})", percent_text(p.bias.error.value),
+                                         shown_percent(p.bias.error.low), shown_percent(p.bias.error.high)),
+                             fmt::format("{:.1f} of 255{}", p.bias.visible,
+                                         list.biased && p.bias.error.value > 0 ? "" : ", noise")});
+    if (!list.biased) row.push_back(fmt::format("{:.2f}", p.noise * p.noise * p.cpu_seconds / least));
+    const char* verdict = !list.biased ? "best" : i + 1 < prices.size() ? "more buys nothing" : "less can be seen";
+    row.push_back(int(i) == list.enough ? verdict : "");
     table.rows.push_back(row);
   }
   return table;
@@ -160,8 +170,6 @@ std::string cost_text(const CostResult& result) {
                         table_text(price_table(list)));
   }
   if (!result.bill.items.empty()) text += "\nThe bill of effects\n\n" + table_text(bill_table(result.bill));
-  if (!result.fixed.empty()) text += "\nNot variable\n\n";
-  for (const std::string& each : result.fixed) text += "  " + each + "\n";
   if (!result.qualities.empty())
     text += "\nRecommended: noise and bias together\n\n" + table_text(quality_table(result));
   return text;

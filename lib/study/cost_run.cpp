@@ -10,7 +10,6 @@
 #include "mesh/subdivide.h"
 #include "render/pilot.h"
 #include "study/cost.h"
-#include "study/environment_size.h"
 #include "study/work_clock.h"
 
 namespace sateen {
@@ -20,6 +19,11 @@ namespace {
 constexpr int reference_factor = 8;
 constexpr double plan_error = 0.01;  // that of the best quality that is recommended
 constexpr std::uint32_t reference_seed = 900001, pair_seed = 700001;
+
+bool same_bits(const Film& a, const Film& b) {
+  return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
+                    [](const FilmPixel& p, const FilmPixel& q) { return p.beauty == q.beauty; });
+}
 
 class CostMeasurement {
  public:
@@ -34,15 +38,11 @@ class CostMeasurement {
     prepare();
     measure_points();
     measure_bounces();
-    measure_environment();
+    measure_levels();
+    for (const Approximation& each : approximation_list()) measure_approximation(each);
     measure_strategies();
     measure_candidates();
-    measure_levels();
     make_out_bill();
-    result_.fixed = {
-        "tangent quadrature: its number of points follows from the lobes' widths and is no setting of this version",
-        "direction table: its size is fixed in this version",
-        "pixel filter: Blackman-Harris over 3 x 3 pixels is the only one of this version"};
     settle_advice(result_);
     result_.interrupted = clock_.stopped();
     result_.cpu_seconds = cpu_seconds() - cpu_start;
@@ -79,7 +79,7 @@ class CostMeasurement {
     small_.height = result_.height;
     scene_.camera = frame_points(scene_.mesh->positions, small_.camera, small_.width, small_.height);
     // Samples a pixel, roughly; bounces and levels cost about twice a plain one.
-    clock_.plan(s.seeds * 2.0 * s.most_samples + reference_factor * s.most_samples + s.price_samples * 2.0 * 40);
+    clock_.plan(s.seeds * 2.0 * s.most_samples + reference_factor * s.most_samples + s.price_samples * 2.0 * 45);
   }
 
   void tell(const std::string& doing) {
@@ -125,7 +125,9 @@ class CostMeasurement {
         const RenderResult done = render_film(scene_, s.light, samples, s.seed + std::uint32_t(k), film);
         if (clock_.stopped()) return;
         squares.push_back(mse_against(film, reference_).relative);
-        point.cpu_seconds += done.cpu_seconds * result_.scale / s.seeds;
+        // Another program's load adds to times and never takes away.
+        const double seconds = done.cpu_seconds * result_.scale;
+        point.cpu_seconds = k == 0 ? seconds : std::min(point.cpu_seconds, seconds);
         point.claimed_error += done.error.error / s.seeds;
         if (k == 0) result_.ladder_pictures.emplace_back(fmt::format("{} samples", samples), shown(film));
       }
@@ -147,142 +149,169 @@ class CostMeasurement {
     for (Film* film : {&pair.a, &pair.b}) {
       const RenderResult done = render_film(scene, light, result_.settings.price_samples,
                                             film == &pair.a ? pair_seed : pair_seed + 1, *film);
-      pair.cpu_seconds += done.cpu_seconds * result_.scale / 2;
+      const double seconds = done.cpu_seconds * result_.scale;
+      pair.cpu_seconds = film == &pair.a ? seconds : std::min(pair.cpu_seconds, seconds);
       pair.noise += done.error.error / 2;
     }
     return pair;
   }
 
-  Price price_of(const std::string& setting, std::vector<std::string> flags, const Pair& pair, const Pair* fine) {
-    Price price;
-    price.setting = setting;
-    price.flags = std::move(flags);
-    price.cpu_seconds = pair.cpu_seconds;
-    price.noise = pair.noise;
-    if (fine)
-      price.bias = measure_bias({pair.a, pair.b}, {fine->a, fine->b}, colors_, result_.settings.display, exposure_);
-    price.picture = shown(pair.a);
-    return price;
+  /// One setting to be priced.
+  struct Step {
+    std::string setting;
+    std::vector<std::string> flags = {};
+    bool asked = false;
+    LightSettings light;
+    std::function<void(Scene&)> make = {};  ///< changes a copy of the scene
+  };
+
+  /// Renders a pair at every step, the last of which is the finest, and keeps the list where it is whole.
+  void measure_list(PriceList list, const std::vector<Step>& steps) {
+    std::vector<Pair> pairs;
+    for (const Step& step : steps) {
+      if (clock_.stopped()) return;
+      tell(list.name + " " + step.setting);
+      Price price;
+      price.setting = step.setting + (step.asked ? " (asked)" : "");
+      price.flags = step.flags;
+      if (step.make) {
+        Scene scene = scene_;
+        const double start = cpu_seconds();
+        try {
+          step.make(scene);
+        } catch (const InputError& error) {
+          list.note += fmt::format("; {} is not possible here: {}", step.setting, error.diagnostics[0].message);
+          continue;
+        }
+        price.setup_seconds = cpu_seconds() - start;
+        pairs.push_back(render_pair(scene, step.light));
+      } else {
+        pairs.push_back(render_pair(scene_, step.light));
+      }
+      list.prices.push_back(std::move(price));
+    }
+    if (clock_.stopped() || pairs.size() < 2) return;
+    // The same bits are the same work: only chance makes their times differ.
+    for (size_t i = 1; i < pairs.size(); ++i)
+      if (same_bits(pairs[i - 1].a, pairs[i].a))
+        pairs[i].cpu_seconds = std::min(pairs[i].cpu_seconds, pairs[i - 1].cpu_seconds);
+    for (size_t i = pairs.size() - 1; i > 0; --i)
+      if (same_bits(pairs[i - 1].a, pairs[i].a)) pairs[i - 1].cpu_seconds = pairs[i].cpu_seconds;
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const Pair& pair = pairs[i];
+      Price& price = list.prices[i];
+      price.cpu_seconds = pair.cpu_seconds;
+      // Of settings that converge to the same picture the true error: what they claim of themselves is too little
+      // where light is met by rare samples, as a sun is by uniform ones.
+      price.noise = list.biased ? pair.noise : true_error(pair);
+      if (list.has_finest && i + 1 < pairs.size())
+        price.bias = measure_bias({pair.a, pair.b}, {pairs.back().a, pairs.back().b}, colors_,
+                                  result_.settings.display, exposure_);
+      price.picture = shown(pair.a);
+    }
+    result_.lists.push_back(std::move(list));
   }
 
-  // Of settings that converge to the same picture: the true error. What they claim of themselves is too little where
-  // light is met by rare samples, as a sun is by uniform ones.
-  Price unbiased_price(const std::string& setting, std::vector<std::string> flags, const LightSettings& light) {
-    Pair pair = render_pair(scene_, light);
-    pair.noise = std::sqrt((mse_against(pair.a, reference_).relative + mse_against(pair.b, reference_).relative) / 2);
-    return price_of(setting, std::move(flags), pair, nullptr);
+  double true_error(const Pair& pair) const {
+    return std::sqrt((mse_against(pair.a, reference_).relative + mse_against(pair.b, reference_).relative) / 2);
   }
-
-  // A list is kept when it is whole.
-  void keep(PriceList list) {
-    if (!clock_.stopped() && list.prices.size() > 1) result_.lists.push_back(std::move(list));
-  }
-
-  static std::string asked(const std::string& text, bool is_asked) { return text + (is_asked ? " (asked)" : ""); }
 
   void measure_bounces() {
-    PriceList list{"bounces", true, true, {}, -1, ""};
-    std::vector<int> numbers{0, 1, 2, 4, 8};
     const int own = result_.settings.light.bounces;
+    std::vector<int> numbers{0, 1, 2, 4};
+    if (own <= numbers.back()) numbers.push_back(8);  // else its own are the finest
     if (std::find(numbers.begin(), numbers.end(), own) == numbers.end()) numbers.push_back(own);
     std::sort(numbers.begin(), numbers.end());
-    std::vector<Pair> pairs;
+    std::vector<Step> steps;
     for (const int bounces : numbers) {
-      if (clock_.stopped()) return;
-      tell(fmt::format("{} bounces", bounces));
-      LightSettings light = result_.settings.light;
-      light.bounces = bounces;
-      pairs.push_back(render_pair(scene_, light));
+      steps.push_back({fmt::format("{}", bounces),
+                       {fmt::format("--bounces {}", bounces)},
+                       bounces == own,
+                       result_.settings.light});
+      steps.back().light.bounces = bounces;
     }
-    for (size_t i = 0; i < pairs.size(); ++i)
-      list.prices.push_back(price_of(asked(fmt::format("{}", numbers[i]), numbers[i] == own),
-                                     {fmt::format("--bounces {}", numbers[i])}, pairs[i],
-                                     i + 1 < pairs.size() ? &pairs.back() : nullptr));
-    keep(std::move(list));
-  }
-
-  void measure_environment() {
-    PriceList list{
-        "environment size", true, false, {}, -1, "the map shrunk before use; this version has no flag for it"};
-    std::vector<Pair> pairs;
-    std::vector<std::string> names;
-    const Environment whole = scene_.environment;
-    for (const int factor : {32, 16, 8, 4, 2, 1}) {
-      if (clock_.stopped()) return;
-      const int width = whole.width / factor, height = whole.height / factor;
-      if (width < 8 || height < 4) continue;
-      tell(fmt::format("map of {} x {}", width, height));
-      scene_.environment = factor > 1 ? shrink_environment(whole, width, height) : whole;
-      names.push_back(asked(fmt::format("{} x {}", width, height), factor == 1));
-      pairs.push_back(render_pair(scene_, result_.settings.light));
-    }
-    for (size_t i = 0; i < pairs.size(); ++i)
-      list.prices.push_back(price_of(names[i], {}, pairs[i], i + 1 < pairs.size() ? &pairs.back() : nullptr));
-    keep(std::move(list));
+    measure_list({"bounces"}, steps);
   }
 
   void measure_strategies() {
-    PriceList list{"strategy", false, true,
-                   {},         -1,    "all converge to the same picture: true error squared times time decides"};
+    PriceList list{"strategy"};
+    list.biased = list.has_finest = false;
+    list.note = "all converge to the same picture: true error squared times time decides";
+    std::vector<Step> steps;
     for (const std::string& name : strategy_names()) {
-      if (clock_.stopped()) return;
-      tell("strategy " + name);
       LightSettings light = result_.settings.light;
       light.strategy = strategy_from_name(name);
-      list.prices.push_back(unbiased_price(asked(name, light.strategy == result_.settings.light.strategy),
-                                           {"--strategy " + name}, light));
+      steps.push_back({name, {"--strategy " + name}, light.strategy == result_.settings.light.strategy, light});
     }
-    keep(std::move(list));
+    measure_list(std::move(list), steps);
   }
 
   void measure_candidates() {
     const bool own = result_.settings.light.strategy == Strategy::resampled;
-    PriceList list{"candidates", false, false,
-                   {},           -1,    "of strategy resampled; true error squared times time decides"};
-    for (const int number : {1, 2, 4, 8, 16}) {
-      if (clock_.stopped()) return;
-      tell(fmt::format("{} candidates", number));
+    PriceList list{"candidates"};
+    list.biased = list.advised = false;
+    list.note = "of strategy resampled; true error squared times time decides";
+    std::vector<Step> steps;
+    for (const int number : {1, 2, 4, 8}) {
       LightSettings light = result_.settings.light;
       light.strategy = Strategy::resampled;
       light.candidates = number;
-      list.prices.push_back(
-          unbiased_price(asked(fmt::format("{}", number), own && number == result_.settings.light.candidates),
-                         {"--strategy resampled", fmt::format("--candidates {}", number)}, light));
+      steps.push_back({fmt::format("{}", number),
+                       {"--strategy resampled", fmt::format("--candidates {}", number)},
+                       own && number == result_.settings.light.candidates,
+                       light});
     }
-    keep(std::move(list));
+    measure_list(std::move(list), steps);
   }
 
   void measure_levels() {
     constexpr std::int64_t most_triangles = 6'000'000;
-    PriceList list{"subdivision level", true, true, {}, -1, ""};
     int finest = result_.level;
     std::int64_t triangles = scene_.mesh->triangles();
-    while (finest < finest_level && (finest < result_.level + 2) && 4 * triangles <= most_triangles)
+    while (finest < finest_level && finest < result_.level + 2 && 4 * triangles <= most_triangles)
       ++finest, triangles *= 4;
-    std::vector<Pair> pairs;
-    std::vector<double> setups;
-    std::vector<int> levels;
-    for (int level = finest; level >= std::max(0, finest - 4); --level) {
-      if (clock_.stopped()) return;
-      tell(fmt::format("level {}", level));
+    std::vector<Step> steps;
+    for (int level = std::max(0, finest - 4); level <= finest; ++level)
+      steps.push_back({fmt::format("{}", level),
+                       {fmt::format("--level {}", level)},
+                       level == result_.level,
+                       result_.settings.light,
+                       [this, level](Scene& scene) {
+                         SceneSettings settings = small_;
+                         settings.level = level;
+                         SceneReport report;
+                         const Camera camera = scene.camera;  // one framing for all
+                         scene = assemble_scene(settings, colors_, report);
+                         scene.camera = camera;
+                         follow_plan(scene);
+                       }});
+    measure_list({"subdivision level"}, steps);
+  }
+
+  void measure_approximation(const Approximation& each) {
+    const Approximations& own = small_.approximations;
+    PriceList list{each.name};
+    list.biased = each.biased;
+    list.advised = each.advised;
+    list.note = each.note;
+    std::vector<Step> steps;
+    for (const std::string& text : each.ladder(own, scene_)) {
       SceneSettings settings = small_;
-      settings.level = level;
-      SceneReport report;
-      Scene scene = assemble_scene(settings, colors_, report);
-      scene.camera = scene_.camera;  // one framing for all
-      LightSettings planned = result_.settings.light;
-      apply_plan(result_.plan, scene, planned);
-      pairs.push_back(render_pair(scene, result_.settings.light));
-      setups.push_back(report.mesh_seconds + report.tracer_seconds);
-      levels.push_back(level);
+      each.read(text, settings.approximations);
+      Step step{text, {}, text == each.text(own), result_.settings.light};
+      if (text != each.text({})) step.flags = {each.flag + " " + text};
+      step.make = [this, settings, &each](Scene& scene) {
+        each.rebuild(settings, colors_, scene);
+        follow_plan(scene);
+      };
+      steps.push_back(std::move(step));
     }
-    if (clock_.stopped()) return;
-    for (size_t i = pairs.size(); i-- > 0;) {
-      list.prices.push_back(price_of(asked(fmt::format("{}", levels[i]), levels[i] == result_.level),
-                                     {fmt::format("--level {}", levels[i])}, pairs[i], i > 0 ? &pairs[0] : nullptr));
-      list.prices.back().setup_seconds = setups[i];
-    }
-    keep(std::move(list));
+    measure_list(std::move(list), steps);
+  }
+
+  void follow_plan(Scene& scene) const {
+    LightSettings planned = result_.settings.light;
+    apply_plan(result_.plan, scene, planned);
   }
 
   void make_out_bill() {

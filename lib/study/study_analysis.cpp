@@ -86,6 +86,16 @@ double common_time(const StudyResult& result, int scene) {
   return sample_price(result, scene, Strategy::mis_compensated) * result.settings.samples;
 }
 
+int missing_samples(const StudyResult& result, int scene, Strategy strategy) {
+  const std::set<int> numbers = measured_samples(result, scene, strategy);
+  const double price = sample_price(result, scene, strategy);
+  if (numbers.empty() || price <= 0) return 0;
+  const double wanted = common_time(result, scene) / price;
+  if (wanted > *numbers.rbegin() || numbers.size() < 2) return 2 * *numbers.rbegin();
+  if (wanted < *numbers.begin() && *numbers.begin() > 1) return *numbers.begin() / 2;
+  return 0;
+}
+
 Ratio equal_time_ratio(const StudyResult& result, int scene, Strategy above, Strategy below, Measure measure) {
   const double time = common_time(result, scene);
   return ratio_of(result.settings.seeds, [&](int without) {

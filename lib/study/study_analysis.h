@@ -33,6 +33,10 @@ double mse_at_time(const StudyResult& result, int scene, Strategy strategy, doub
 /// The common CPU time of a scene: that of mis-compensated at StudySettings::samples.
 double common_time(const StudyResult& result, int scene);
 
+/// A number of samples that is not measured and is wanted so that the measured ones lie about the common time: twice
+/// the largest or half the smallest. 0 where they do lie about it, or there are none.
+int missing_samples(const StudyResult& result, int scene, Strategy strategy);
+
 /// MSE of `above` over that of `below` at equal CPU time; the interval is over the seeds.
 struct Ratio {
   bool known = false;

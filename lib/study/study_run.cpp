@@ -9,6 +9,7 @@
 #include "render/pilot.h"
 #include "render/render.h"
 #include "study/study.h"
+#include "study/study_analysis.h"
 #include "study/study_pictures.h"
 #include "study/work_clock.h"
 
@@ -175,22 +176,41 @@ class Study {
     clock_.done(s.reference_samples * (s.bounces > 0 ? 2.0 : 1.0));
 
     const std::vector<std::pair<Strategy, int>> list = runs_of(s, scene);
-    std::vector<StudyRun> measured;
+    const size_t runs_before = result_.runs.size();
     const double units = units_of(s, at_equal_time) - s.reference_samples * (s.bounces > 0 ? 2.0 : 1.0);
     for (int seed = 1; seed <= result_.settings.seeds; ++seed)
       for (const auto& [strategy, samples] : list) {
-        StudyRun run;
-        const Film film = render_film(scene, strategy, samples, std::uint32_t(seed), s.bounces, run);
-        if (clock_.stopped()) return;  // a scene counts when it is whole
-        run.scene = index;
-        run.seed = seed;
-        run.mse = mse_against(film, reference);
-        measured.push_back(run);
+        add_run(index, scene, reference, strategy, samples, seed);
         clock_.done(units / (double(list.size()) * result_.settings.seeds));
         tell(s.label());
       }
-    result_.runs.insert(result_.runs.end(), measured.begin(), measured.end());
-    s.finished = true;
+    if (s.all_strategies) bracket_common_time(index, scene, reference);
+    s.finished = !clock_.stopped();  // a scene counts when it is whole
+    if (!s.finished) result_.runs.resize(runs_before);
+  }
+
+  void add_run(int index, const Scene& scene, const Reference& reference, Strategy strategy, int samples, int seed) {
+    if (clock_.stopped()) return;
+    StudyRun run;
+    const Film film =
+        render_film(scene, strategy, samples, std::uint32_t(seed), result_.scenes[size_t(index)].bounces, run);
+    run.scene = index;
+    run.seed = seed;
+    run.mse = mse_against(film, reference);
+    result_.runs.push_back(run);
+  }
+
+  // Numbers of samples were chosen by the price that a pilot found; where the runs themselves were so much cheaper or
+  // dearer that all of a strategy's lie on one side of the common time, it gets more, for no scene shall be left out.
+  void bracket_common_time(int index, const Scene& scene, const Reference& reference) {
+    constexpr int most_steps = 8;
+    for (const Strategy strategy : all_strategies())
+      for (int step = 0; step < most_steps; ++step) {
+        const int samples = missing_samples(result_, index, strategy);
+        if (samples == 0 || clock_.stopped()) break;
+        for (int seed = 1; seed <= result_.settings.seeds; ++seed)
+          add_run(index, scene, reference, strategy, samples, seed);
+      }
   }
 
   // Strategy and samples of all renders of one seed: the ladder, and two numbers about the common time.

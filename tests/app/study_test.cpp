@@ -96,8 +96,9 @@ TEST(CostCommand, WritesThePriceListAndAPageThatStandsAlone) {
   for (const char* quality : {"\"draft\"", "\"preview\"", "\"final\"", "\"flags\": \"--spp "})
     EXPECT_TRUE(has(run.out, quality)) << quality;
   const std::string text = read_text(folder / "out/cost.txt");
-  for (const char* part : {"Error against time", "Price of bounces", "Price of environment size", "Price of strategy",
-                           "Price of candidates", "Price of subdivision level", "Not variable", "Recommended"})
+  for (const char* part :
+       {"Error against time", "Price of bounces", "Price of quadrature", "Price of table size", "Price of map size",
+        "Price of filter", "Price of strategy", "Price of candidates", "Price of subdivision level", "Recommended"})
     EXPECT_TRUE(has(text, part)) << part;
   EXPECT_TRUE(has(read_text(folder / "out/cost.csv"), "part,setting,samples,"));
   for (const char* plot : {"out/error_time.png", "out/prices.png"})

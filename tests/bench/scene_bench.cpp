@@ -10,12 +10,12 @@
 #include "base/files.h"
 #include "base/parallel.h"
 #include "bench.h"
-#include "film/filter.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
 #include "render/assemble.h"
 #include "render/render.h"
 #include "scene/environment_file.h"
+#include "scene/filter.h"
 
 namespace sateen::bench {
 
@@ -127,7 +127,8 @@ void rays() {
       render_all();
       scratch->counts.log = nullptr;
       for (const SampleId& id : ids) {
-        const Vec2 at = sample_filter(draw2(pixel_sequence(1, id.x, id.y, id.replicate), Dimension::film, id.index));
+        const Vec2 at = sample_filter(*default_filter(),
+                                      draw2(pixel_sequence(1, id.x, id.y, id.replicate), Dimension::film, id.index));
         camera.push_back(scene.camera.ray(float(id.x) + 0.5f + at.x, float(id.y) + 0.5f + at.y));
       }
       const double count = double(camera.size() + shadow.size());

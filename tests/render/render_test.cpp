@@ -30,14 +30,43 @@ TEST(StopRules, EndAtTheSamplesAskedFor) {
 }
 
 TEST(StopRules, EndOnceTheUpperEndOfTheErrorIsBelowTheTarget) {
-  for (const double target : {0.2, 0.05}) {
+  for (const double target : {0.2, 0.05, 0.04}) {
     RenderSettings settings = samples(0);
     settings.stop.error = target;
     Film film(24, 16, false);
     const RenderResult result = render(satin_scene(), settings, film);
     EXPECT_EQ(result.reason, StopReason::error);
     EXPECT_LE(result.error.high, target);
-    EXPECT_EQ(next_barrier(result.samples - 1), result.samples) << "it is looked at at barriers alone";
+    int barrier = 0;
+    while (barrier < result.samples) barrier = next_barrier(barrier);
+    if (result.samples >= next_barrier(0)) {
+      EXPECT_EQ(barrier, result.samples) << "it is looked at at barriers";
+    } else {
+      EXPECT_EQ(result.samples % replicates, 0) << "or before the first, with as many samples in every replicate";
+    }
+  }
+}
+
+TEST(StopRules, ACoarseErrorEndsBeforeTheFirstBarrierAndWhatFollowsIsTheSame) {
+  RenderSettings settings = samples(0);
+  settings.adaptive = true;
+  settings.stop.error = 2;  // far above what so few pixels need
+  Film film(24, 16, false);
+  Course course;
+  const RenderResult coarse = render(satin_scene(), settings, film, course, {});
+  EXPECT_EQ(coarse.reason, StopReason::error);
+  EXPECT_LT(coarse.samples, next_barrier(0));
+  EXPECT_EQ(coarse.samples % replicates, 0);
+  EXPECT_LE(coarse.error.high, 2);
+  EXPECT_EQ(render(satin_scene(), settings, film, course, {}).samples, coarse.samples) << "it is met already";
+
+  settings.stop.error = 0.03;
+  EXPECT_GT(render(satin_scene(), settings, film, course, {}).samples, next_barrier(0));
+  Film at_once(24, 16, false);
+  render(satin_scene(), settings, at_once);
+  for (size_t i = 0; i < film.pixels.size(); ++i) {
+    EXPECT_EQ(film.pixels[i].samples, at_once.pixels[i].samples);
+    EXPECT_EQ(film.pixels[i].beauty, at_once.pixels[i].beauty);
   }
 }
 

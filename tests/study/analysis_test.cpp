@@ -56,6 +56,26 @@ TEST(StudyAnalysis, EqualTimeGivesTheCheapStrategyMoreSamples) {
   EXPECT_FALSE(equal_time_ratio(study, 0, Strategy::mis, Strategy::uniform, Measure::relative).known);
 }
 
+TEST(StudyAnalysis, ToldWhichSamplesAreMissingAStrategyIsKnownAtTheCommonTime) {
+  // The common time is 32 seconds; numbers of samples from 4 to 64 cost one strategy 2 seconds at most, the other 640
+  // at least.
+  for (const double price : {0.03, 160.0}) {
+    std::vector<Law> laws = plain;
+    laws.push_back({Strategy::mis, 0.02, 1, price});
+    StudyResult study = made_study(laws, {"overcast"});
+    EXPECT_EQ(missing_samples(study, 0, Strategy::uniform), 0);
+    EXPECT_EQ(missing_samples(study, 0, Strategy::resampled), 0) << "it is not measured at all";
+    EXPECT_EQ(missing_samples(study, 0, Strategy::mis), price < 1 ? 128 : 2);
+    while (const int samples = missing_samples(study, 0, Strategy::mis))
+      for (int seed = 1; seed <= 3; ++seed)
+        study.runs.push_back({0, Strategy::mis, samples, seed, price * samples, {0.02 / samples, 0.04 / samples}});
+    EXPECT_EQ(study.runs.back().samples, price < 1 ? 2048 : 1) << "no fewer than one sample can be taken";
+    if (price < 1) {
+      EXPECT_NEAR(mse_at_time(study, 0, Strategy::mis, 32, Measure::relative), 0.04 * price / 32, 1e-9);
+    }
+  }
+}
+
 TEST(StudyAnalysis, ASceneWhereOursIsNotKnownAtTheCommonTimePassesNoBar) {
   // Ours costs so much that its measured numbers lie far beyond the common time.
   std::vector<Law> laws = plain;

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "render/render.h"
+#include "scene/environment_size.h"
 #include "study/bias.h"
-#include "study/environment_size.h"
 #include "study/study_scene.h"
 
 namespace sateen_test {

@@ -1,4 +1,4 @@
-#include "study/environment_size.h"
+#include "scene/environment_size.h"
 
 #include <algorithm>
 
@@ -27,7 +27,9 @@ Environment shrink_environment(const Environment& map, int width, int height) {
   options.rotation = map.rotation;
   options.name = map.name;
   options.luminance = map.luminance;
-  return build_environment(std::move(small), options);
+  Environment shrunk = build_environment(std::move(small), options);
+  shrunk.repairs = map.repairs;
+  return shrunk;
 }
 
 }  // namespace sateen
