@@ -78,6 +78,19 @@ float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& dir
   return side ? gap_at(*side, fabric, surface.uv, {}) : fabric.gap;
 }
 
+void pass_gaps(const Scene& scene, std::span<const Ray> rays, float* passed) {
+  // Where all gaps are alike it does not matter what is met.
+  if (!scene.has_maps && !scene.back)
+    return scene.rays->passed_each(
+        rays, [gap = scene.front.gap](const Hit&, const Ray&) { return gap; }, passed);
+  scene.rays->passed_each(
+      rays,
+      [&](const Hit& hit, const Ray& ray) {
+        return gap_along(scene, surface_point(*scene.mesh, hit), ray.direction);
+      },
+      passed);
+}
+
 void turn_point(ClothPoint& point, const YTurn& object) {
   point.object = object;
   point.facing = turned(point.facing, object);
