@@ -136,6 +136,21 @@ void light_ground(const Scene& scene, const LightSettings& settings, std::uint32
   }
 }
 
+/// CameraSample::presence of a point.
+std::array<float, 2> presence_of(const ClothPoint& point) {
+  std::array<float, 2> presence{1, 1};
+  const VaryingThreads* varying = point.mapped ? point.fabric->varying.get() : nullptr;
+  for (size_t family = 0; family < 2; ++family) {
+    const Weave& weave = point.fabric->weave;
+    const float mean = varying ? varying->values[family].coverage : float(weave.coverage[family]);
+    if (varying && mean > 0) presence[family] = point.values.family[family].coverage / mean;
+    if (point.yarn.near == 0) continue;
+    const float yarn = point.yarn.family == int(family) && mean > 0 ? point.yarn.light / mean : 0;
+    presence[family] += (yarn - presence[family]) * point.yarn.near;
+  }
+  return presence;
+}
+
 /// The first cloth that a sample sees: what else is told of it.
 void see_first(const Scene& scene, const ClothPoint& point, CameraSample& sample) {
   sample.hit = true;
@@ -146,6 +161,9 @@ void see_first(const Scene& scene, const ClothPoint& point, CameraSample& sample
   sample.uv = point.surface.uv;
   sample.wo = point.wo;
   sample.back = scene.back && point.on_back;
+  sample.fabric = point.fabric;
+  sample.A = point.mapped ? point.values.A : point.fabric->A;
+  sample.presence = presence_of(point);
   sample.alpha = 1;
 }
 

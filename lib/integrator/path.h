@@ -10,12 +10,17 @@ struct CameraSample {
   BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth or ground
   Color through_gaps{0, 0, 0};  ///< light of the layers behind the first, seen through its gaps
   Color backdrop{0, 0, 0};      ///< and the direct light of the ground
-  float alpha = 0;   ///< 1 where the backdrop is seen, else the cloth's opacity
-  bool hit = false;  ///< the values below are those of the first surface met
+  float alpha = 0;              ///< 1 where the backdrop is seen, else the cloth's opacity
+  bool hit = false;             ///< the values below are those of the first surface met
   Vec3 position{0, 0, 0}, normal{0, 0, 0}, warp{0, 0, 0};
   Vec2 uv{0, 0};
   Vec3 wo{0, 0, 1};   ///< cloth frame
   bool back = false;  ///< the cloth's back is seen
+  const Fabric* fabric = nullptr;
+  /// A of warp and weft there, and how much of their light there is for each part of the fabric's mean: not 1 where
+  /// textures give a coverage, and all of one family where its yarn is seen from near.
+  std::array<Color, 2> A{Color(0), Color(0)};
+  std::array<float, 2> presence{1, 1};
 
   Color total() const { return direct.total() + indirect.total() + through_gaps + backdrop; }
 };

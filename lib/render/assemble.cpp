@@ -85,6 +85,7 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
                            cage, [&](const Vec3& p) { return rough.pixel_size(p); }, longest_edge_pixels);
   auto mesh = std::make_unique<Mesh>(subdivide(cage, report.level, settings.threads));
   report.triangles = mesh->triangles();
+  report.metres_per_uv = settings.uv_metres > 0 ? settings.uv_metres : mesh->metres_per_uv;
   report.warnings.insert(report.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   if (mesh->fallback_warps > 0)
     report.warnings.push_back(
@@ -99,17 +100,19 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   return cloth;
 }
 
+float uv_metres(const SceneReport& report) {
+  return report.metres_per_uv > 0 ? report.metres_per_uv : 1;
+}
+
 /// How large the cloth is and from how near its threads show.
-void settle_weave(const SceneSettings& settings, Scene& scene, SceneReport& report) {
-  if (scene.front.weave.empty() && (!scene.back || scene.back->weave.empty())) return;
-  const float known = settings.uv_metres > 0 ? settings.uv_metres : scene.mesh->metres_per_uv;
-  scene.metres_per_uv = known > 0 ? known : 1;
+void settle_weave(const SceneSettings& settings, bool sized_textures, Scene& scene, SceneReport& report) {
+  scene.metres_per_uv = uv_metres(report);
   scene.near_weave_pixel = near_weave_pixel(scene);
-  if (!(known > 0) && may_show_yarns(scene))
-    report.warnings.push_back(
-        fmt::format("{}: nothing says how large the cloth is; its threads are counted as if one UV unit were a metre "
-                    "(--uv-metres)",
-                    settings.mesh));
+  const bool threads = scene.near_weave_pixel > 0 && may_show_yarns(scene);
+  if (report.metres_per_uv > 0 || !(threads || sized_textures)) return;
+  report.warnings.push_back(
+      fmt::format("{}: nothing says how large the cloth is; its {} as if one UV unit were a metre (--uv-metres)",
+                  settings.mesh, sized_textures ? "textures are sized" : "threads are counted"));
 }
 
 std::string hash_environment(const Environment& environment) {
@@ -149,10 +152,16 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   parts.threads = settings.threads;
   std::exception_ptr failure;
   std::vector<std::string> warnings;
+  bool sized_textures = false;
   try {
-    CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg);
+    std::optional<Look> back_look;
+    if (!look.back.empty()) back_look = read_back(look);
+    sized_textures = has_sized_textures(look) || (back_look && has_sized_textures(*back_look));
+    if (sized_textures) cloth.wait();
+    const float metres = sized_textures ? uv_metres(report) : 1;
+    CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg, metres);
     std::optional<CompiledSide> back;
-    if (!look.back.empty()) back = compile_side(read_back(look), colors, parts);
+    if (back_look) back = compile_side(*back_look, colors, parts, 0, metres);
     warnings = front.warnings;
     if (back) warnings.insert(warnings.end(), back->warnings.begin(), back->warnings.end());
     set_sides(scene, std::move(front), std::move(back));
@@ -171,7 +180,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
-  settle_weave(settings, scene, report);
+  settle_weave(settings, sized_textures, scene, report);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   set_stage(scene, settings.stage, settings.threads);
   report.environment_hash = hash_environment(scene.environment);

@@ -39,7 +39,8 @@ struct SceneReport {
   std::string look_hash, mesh_hash, environment_hash;
   std::int64_t cage_faces = 0, triangles = 0, tracer_bytes = 0;
   int level = 0;
-  float metered_ev = 0;  ///< display exposure that the light asks for (scene/metering)
+  float metres_per_uv = 0;  ///< the cloth's size, asked for or as the mesh says; 0: nothing says it
+  float metered_ev = 0;     ///< display exposure that the light asks for (scene/metering)
   double look_seconds = 0, mesh_seconds = 0, environment_seconds = 0, tracer_seconds = 0;  ///< wall clock
   std::vector<std::string> warnings;
 };

@@ -21,6 +21,14 @@ const SideMaps* side_maps(const Scene& scene, bool back) {
 }
 }  // namespace
 
+std::vector<const Fabric*> fabrics_of(const Scene& scene) {
+  std::vector<const Fabric*> all{&scene.front};
+  if (scene.back) all.push_back(&*scene.back);
+  for (const auto& side : {scene.front_maps, scene.back_maps})
+    if (side && side->pattern) all.push_back(&side->pattern->fabric);
+  return all;
+}
+
 ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction) {
   ClothPoint point;
   point.surface = surface_point(*scene.mesh, hit);

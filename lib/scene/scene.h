@@ -33,18 +33,22 @@ struct Scene {
   Environment environment;
   Camera camera;
   Backdrop backdrop = Backdrop::none;
-  Color backdrop_color{0, 0, 0};         ///< working space
-  std::optional<BlurredMap> blurred;     ///< for Backdrop::blurred alone
-  bool has_gaps = false;                 ///< some look lets light straight through
-  bool self_shadowing = true;            ///< false: no part of the cloth keeps light from another
-  bool has_maps = false;                 ///< some side has textures
-  std::shared_ptr<const SideMaps> front_maps, back_maps;  ///< null where nothing varies; the back's own, if it has one
+  Color backdrop_color{0, 0, 0};      ///< working space
+  std::optional<BlurredMap> blurred;  ///< for Backdrop::blurred alone
+  bool has_gaps = false;              ///< some look lets light straight through
+  bool self_shadowing = true;         ///< false: no part of the cloth keeps light from another
+  bool has_maps = false;              ///< some side has textures
+  std::shared_ptr<const SideMaps> front_maps,
+      back_maps;  ///< null where nothing varies; the back's own, if it has one
   std::optional<Ground> ground;
-  std::optional<Lens> lens;              ///< empty: a pinhole
-  std::optional<Shutter> shutter;        ///< empty: nothing turns
-  float metres_per_uv = 1;               ///< the cloth's own size, which threads per centimetre are counted on
-  float near_weave_pixel = 0;            ///< scene/near_weave.h; 0: threads never show one by one
+  std::optional<Lens> lens;        ///< empty: a pinhole
+  std::optional<Shutter> shutter;  ///< empty: nothing turns
+  float metres_per_uv = 1;         ///< the cloth's own size, which threads per centimetre are counted on
+  float near_weave_pixel = 0;      ///< scene/near_weave.h; 0: threads never show one by one
 };
+
+/// All fabrics of a scene: front, back and those of their patterns.
+std::vector<const Fabric*> fabrics_of(const Scene& scene);
 
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
 struct ClothPoint {
