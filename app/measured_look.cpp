@@ -1,5 +1,7 @@
 #include "measured_look.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "base/parallel.h"
@@ -38,6 +40,11 @@ MeasuredLook measure_look(const Look& look, bool with_table, const std::string& 
   CompiledSide side = compile_side(look, *colors, parts);
   measured.fabric = std::move(side.fabric);
   measured.warnings = std::move(side.warnings);
+  if (side.color_error >= 0.005f)
+    measured.warnings.push_back(fmt::format(
+        "{}: textures of color are solved for the means of the textures of numbers; where one of those is at the end "
+        "of its range the cloth shows a colour that is off by up to {:.2f}",
+        look.name, side.color_error));
   return measured;
 }
 

@@ -60,7 +60,7 @@ Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
   const int phis = thetas / 2;
   ThreadView<float> view;
   prepare_view<float>(threads, wo.x, wo.y, wo.z, view);
-  double surface = 0, volume[2] = {0, 0};
+  double surface = 0, surface_of[2] = {0, 0}, volume[2] = {0, 0};
   const double step = double(pi) / thetas, step_phi = double(pi) / phis;
   for (int i = 0; i < thetas; ++i)
     for (int j = 0; j < phis; ++j) {
@@ -69,9 +69,12 @@ Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas) {
       const ThreadSums<float> s =
           scatter<float>(threads, view, float(std::sin(theta)), float(c * std::sin(phi)), float(c * std::cos(phi)));
       surface += weight * (double(s.surface[0]) + s.surface[1]);
-      for (int family = 0; family < 2; ++family) volume[family] += weight * s.volume[family];
+      for (int family = 0; family < 2; ++family) {
+        surface_of[family] += weight * s.surface[family];
+        volume[family] += weight * s.volume[family];
+      }
     }
-  return {float(surface), {float(volume[0]), float(volume[1])}};
+  return {float(surface), {float(volume[0]), float(volume[1])}, {float(surface_of[0]), float(surface_of[1])}};
 }
 
 Color albedo_color(const Fabric& fabric, const Vec3& wo, int thetas) {

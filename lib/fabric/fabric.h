@@ -106,6 +106,7 @@ std::optional<Vec3> sample(const SamplerView& view, const FabricRandom& u);
 struct Albedo {
   float surface = 0;
   std::array<float, 2> volume{0, 0};
+  std::array<float, 2> surface_of{0, 0};  ///< what of `surface` is warp's and weft's
 };
 /// A coarser one (`thetas`, half as many phis) serves where an approximate value will do.
 Albedo albedo(const Threads<float>& threads, const Vec3& wo, int thetas = 192);

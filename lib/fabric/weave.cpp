@@ -44,8 +44,8 @@ double along_yarn(long long yarn, double place, std::uint64_t use) {
 struct Strips {
   const Weave& weave;
   bool warp;
+  double width;  // share of the spacing
   double spacing = warp ? weave.warp_spacing : weave.weft_spacing;
-  double width = warp ? weave.warp_width : weave.weft_width;
 
   /// How much wider than its spacing a slub makes half of a weft yarn: one place in five is thick.
   double slub(long long yarn, double along) const {
@@ -129,13 +129,9 @@ YarnWidths yarn_widths(double warp, double weft, double up) {
     if (weft <= 1 - up) return {1, up < 1 ? weft / (1 - up) : 0};
     return {std::min(1.0, warp / up), 1};
   }
-  // Warp's share grows with its width from 0 to 1 - gap: halve the interval down to the last bit.
-  double low = 0, high = 1 - gap;
-  for (int i = 0; i < 100; ++i) {
-    const double w = (low + high) / 2;
-    (w * (up + (1 - up) * gap / (1 - w)) < warp ? low : high) = w;
-  }
-  const double w = (low + high) / 2;
+  // warp = w (up + (1 - up) (1 - v)) and gap = (1 - w) (1 - v): a quadratic of which the smaller root is meant.
+  const double b = up + (1 - up) * gap + warp;
+  const double w = 2 * warp / (b + std::sqrt(std::max(0.0, b * b - 4 * up * warp)));
   return {w, std::clamp(1 - gap / (1 - w), 0.0, 1.0)};
 }
 
@@ -152,12 +148,11 @@ Weave compile_weave(const Look& look) {
       weave.warp_up.push_back(draft.up(draft.ends - 1 - end, draft.picks - 1 - pick) ? 1 : 0);
       up += weave.warp_up.back();
     }
+  weave.up = double(up) / (double(draft.ends) * draft.picks);
   weave.warp_spacing = 0.01 / double(look.weave.warp_per_cm);
   weave.weft_spacing = 0.01 / double(look.weave.weft_per_cm);
-  const YarnWidths widths = yarn_widths(double(look.warp.coverage), double(look.weft.coverage),
-                                        double(up) / (double(draft.ends) * draft.picks));
-  weave.warp_width = widths.warp;
-  weave.weft_width = widths.weft;
+  weave.coverage = {double(look.warp.coverage), double(look.weft.coverage)};
+  weave.widths = yarn_widths(weave.coverage[0], weave.coverage[1], weave.up);
   weave.irregularity = double(look.weave.irregularity);
   weave.slubs = double(look.weave.slubs);
   for (int family = 0; family < 2; ++family) {
@@ -170,14 +165,17 @@ Weave compile_weave(const Look& look) {
     weave.volume_width[size_t(family)] = std::clamp(0.9 + 1.0 * double(radians(f.gamma_v_deg)), 1.0, 2.0);
     // And their fibres run round the yarn, at up to 25 degrees.
     const double angle = std::clamp(2.5 * (double(f.gamma_s_deg) - 4), 0.0, 25.0) * std::numbers::pi / 180;
-    const double width = family == 0 ? widths.warp * weave.warp_spacing : widths.weft * weave.weft_spacing;
+    const double width =
+        family == 0 ? weave.widths.warp * weave.warp_spacing : weave.widths.weft * weave.weft_spacing;
     weave.twist[size_t(family)] = width > 0 ? strands_across * std::tan(angle) / width : 0;
   }
   return weave;
 }
 
-YarnPlace yarn_at(const Weave& weave, double x, double y) {
-  const Strips warp{weave, true}, weft{weave, false};
+namespace {
+
+YarnPlace place_at(const Weave& weave, const YarnWidths& widths, double x, double y) {
+  const Strips warp{weave, true, widths.warp}, weft{weave, false, widths.weft};
   const double across_warp = y / weave.warp_spacing, across_weft = x / weave.weft_spacing;
   const long long end = warp.yarn_at(across_warp, x), pick = weft.yarn_at(across_weft, y);
   const Strips::Strip warp_strip = warp.strip(end, x), weft_strip = weft.strip(pick, y);
@@ -205,6 +203,29 @@ YarnPlace yarn_at(const Weave& weave, double x, double y) {
   return place;
 }
 
+}  // namespace
+
+void close_gaps(Weave& weave) {
+  const double sum = weave.coverage[0] + weave.coverage[1];
+  if (weave.empty() || !(sum > 0)) return;
+  weave.widths = yarn_widths(weave.coverage[0] / sum, weave.coverage[1] / sum, weave.up);
+  weave.closed = true;
+}
+
+YarnPlace yarn_at(const Weave& weave, double x, double y) {
+  YarnPlace place = place_at(weave, weave.widths, x, y);
+  if (weave.closed) place.light = float(std::min(weave.coverage[0] + weave.coverage[1], 1.0));
+  return place;
+}
+
+YarnPlace yarn_at(const Weave& weave, const std::array<double, 2>& coverage, double x, double y) {
+  const double sum = coverage[0] + coverage[1], whole = weave.closed || sum > 1 ? sum : 1;
+  if (!(sum > 0)) return {};
+  YarnPlace place = place_at(weave, yarn_widths(coverage[0] / whole, coverage[1] / whole, weave.up), x, y);
+  if (weave.closed) place.light = float(std::min(sum, 1.0));
+  return place;
+}
+
 double profile(double across, double middle, double width, double dark) {
   // (1 - dark s^2) / (1 + t^2) with s = middle + width t, over its mean for s from -1 to 1 in closed form.
   const double t0 = (-1 - middle) / width, t1 = (1 - middle) / width;
@@ -228,7 +249,7 @@ void add_yarn(const Weave& weave, const Threads<float>& threads, const YarnPlace
   const int index = threads.first[family];
   if (index < 0) return;
   const TangentTerms terms = tangent_terms(threads, index, double(place.offset), wo, wi);
-  const double scale = double(place.near) / double(parts.reweight);
+  const double scale = double(place.near) * double(place.light) / double(parts.reweight);
   const double middle = std::clamp(terms.half_azimuth, -1.0, 1.0);
   const auto weight = [&](double width) {
     const double yarn = profile(double(place.across), middle, width, double(place.dark));

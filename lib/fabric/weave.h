@@ -9,6 +9,11 @@
 
 namespace sateen {
 
+/// Shares of their spacings that warp and weft yarns fill, 0 to 1.
+struct YarnWidths {
+  double warp = 0, weft = 0;
+};
+
 /// A weave compiled for cloth that is seen from so near that its threads have places. Weave coordinates [metres]: x
 /// along the warp, y along the weft, as in the cloth's frame. Warp yarns lie side by side along y, weft yarns along
 /// x; a yarn is a strip of its spacing's width times `width`, and between the strips the other family, or nothing,
@@ -21,8 +26,11 @@ struct Weave {
   int ends = 0, picks = 0;                    ///< of the repeat; 0: no weave, no threads to be seen
   std::vector<std::uint8_t> warp_up;          ///< [pick * ends + end], both in the order of growing y and x
   double warp_spacing = 0, weft_spacing = 0;  ///< [metres]
-  double warp_width = 0, weft_width = 0;      ///< share of the spacing that a yarn fills, 0 to 1
-  double irregularity = 0, slubs = 0;         ///< as authored
+  double up = 0;                              ///< share of the crossings with the warp on top
+  std::array<double, 2> coverage{};           ///< a_j of warp and weft
+  YarnWidths widths;
+  bool closed = false;                 ///< see close_gaps()
+  double irregularity = 0, slubs = 0;  ///< as authored
   /// Tangent curves, as authored [degrees]; the place along a float runs from a curve's end to its start
   std::array<std::vector<float>, 2> offsets_deg, lengths;
   /// Across a yarn: widths of the highlight and of the glow, in half widths of the yarn.
@@ -40,10 +48,11 @@ inline constexpr int strands_across = 7;
 
 /// Widths of strips with which warp and weft cover `warp` and `weft` of the cloth's area (their sum at most 1), where
 /// the warp is on top in the share `up` of all crossings: there is always exactly one such pair.
-struct YarnWidths {
-  double warp = 0, weft = 0;
-};
 YarnWidths yarn_widths(double warp, double weft, double up);
+
+/// Widens the yarns until they cover all of the cloth, in the shares that they had, for a picture in which nothing is
+/// seen through gaps. The light stays that of the threads that are there, as in the far model without its gaps.
+void close_gaps(Weave& weave);
 
 /// What lies on top at one place of the cloth, and how much the picture makes of it.
 struct YarnPlace {
@@ -54,10 +63,14 @@ struct YarnPlace {
   float dark = 0;     ///< light that is missing at the yarn's very edge, 0 to 1: most where a float dives
   float fibre = 0;    ///< place across the strand of fibres that lies there, -1 to 1
   float strands = 0;  ///< share of the strands in the yarn's shading; 0 where they are too fine to be seen
+  float light = 1;    ///< of a yarn, as a share: below 1 where it fills what were gaps
 };
 
 /// The place at weave coordinates (x, y) [metres], `near` and `strands` left 0. The weave must not be empty.
 YarnPlace yarn_at(const Weave& weave, double x, double y);
+/// Where the families cover `coverage` of the cloth around there instead of their shares in the weave (a sum above 1
+/// counts as 1): over a repeat of constant coverage the mean is that far model's.
+YarnPlace yarn_at(const Weave& weave, const std::array<double, 2>& coverage, double x, double y);
 
 /// Mean-1 weight of a place across a yarn, or a strand of it, for light whose half vector has the sine `middle` of
 /// its azimuth about the thread: a bump of `width` where the yarn's own normal looks along it, and edges that lack
@@ -65,7 +78,8 @@ YarnPlace yarn_at(const Weave& weave, double x, double y);
 double profile(double across, double middle, double width, double dark);
 
 /// Blends the threads' mean `parts` at (wi, wo) with the yarn at `place`: F = (1 - near) F_far + near F_near, where
-/// F_near = (1/Q) f M P cos theta_i of that yarn's one tangent times its profile, and Q is the far model's full mean.
+/// F_near = (1/Q) f M P cos theta_i of that yarn's one tangent times its profile and light, and Q is the far model's
+/// full mean.
 /// Unit directions in the cloth's frame. `threads` are those that `parts` came from.
 void add_yarn(const Weave& weave, const Threads<float>& threads, const YarnPlace& place, const Vec3& wo,
               const Vec3& wi, ThreadSums<float>& parts);

@@ -167,14 +167,6 @@ void light_vertices(const Scene& scene, const LightSettings& settings, std::span
 
 }  // namespace
 
-SequenceBatch alone(std::uint32_t seed, const SampleId& id, int bounce) {
-  SequenceBatch batch;
-  batch.count = 1;
-  batch.seed[0] = pixel_sequence(seed, id.x, id.y, id.replicate, bounce).seed;
-  batch.index[0] = id.index;
-  return batch;
-}
-
 void follow_bounces(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
                     std::span<const PathStart> starts, PathScratch& scratch, BounceLight* light) {
   const FabricSampler sampler = strategy_sampler(settings.strategy);

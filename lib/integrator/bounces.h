@@ -14,9 +14,6 @@ struct PathStart {
 /// Most layers of sheer cloth that a ray passes.
 inline constexpr int most_layers = 64;
 
-/// A batch of one: sample `id` at its `bounce`-th vertex, or its layer -bounce.
-SequenceBatch alone(std::uint32_t seed, const SampleId& id, int bounce);
-
 /// Light that comes to the start of each of up to batch_size paths after one more meeting with cloth or ground and
 /// further ones, by bounce: one unbiased estimate each, the same bits in any batch. The paths take every step side by
 /// side; F is evaluated only where a path meets something.

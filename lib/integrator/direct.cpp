@@ -9,19 +9,6 @@ namespace sateen {
 
 namespace {
 
-/// Share of light that gaps let pass along a shadow ray.
-float transmittance(const Scene& scene, Ray ray, RayCounts& counts) {
-  float passed = 1;
-  while (const std::optional<Hit> hit = scene.rays->closest_hit(ray)) {
-    const SurfacePoint surface = surface_point(*scene.mesh, *hit);
-    passed *= gap_along(scene, surface, ray.direction);
-    if (passed < 1e-6f) return 0;
-    ray.origin = offset_origin(surface, ray.direction);
-    ++counts.shadow;
-  }
-  return passed;
-}
-
 /// Share of light that comes from the environment to every point along its chosen rays: 0 or 1, or what gaps let
 /// pass.
 using Seen = std::array<std::array<float, 2>, batch_size>;
@@ -72,8 +59,7 @@ void trace_shadow_rays(const Scene& scene, std::span<const Ray> rays, RayCounts&
   counts.shadow += std::int64_t(rays.size());
   if (counts.log) counts.log->insert(counts.log->end(), rays.begin(), rays.end());
   if (scene.has_gaps) {
-    for (size_t k = 0; k < rays.size(); ++k) passed[k] = transmittance(scene, rays[k], counts);
-    return;
+    return pass_gaps(scene, rays, passed);
   }
   std::array<bool, RayTracer::stream_size> blocked;
   scene.rays->occluded_each(rays, blocked.data());

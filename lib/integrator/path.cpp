@@ -9,17 +9,24 @@ namespace sateen {
 
 namespace {
 
-bool finite(const Color& c) {
-  return std::isfinite(c.x + c.y + c.z);
-}
-
 // A value that is not finite is a fault somewhere below: it is dropped, counted and reported, never masked in
 // silence.
 bool keep(const Color& light, RayCounts& counts) {
-  if (finite(light)) return true;
+  if (std::isfinite(light.x + light.y + light.z)) return true;
   ++counts.non_finite;
   return false;
 }
+
+/// A batch of samples on their way through layers of sheer cloth; most see one surface and are done.
+struct Sights {
+  std::span<const SampleId> ids;
+  const Ray* world;                       // camera rays
+  const Ray* traced;                      // the same as the turned object sees them
+  int layer = 0;                          // layers that have been passed
+  std::array<float, batch_size> passed;   // by sample: share of what lies behind them that is seen
+  std::array<float, batch_size> seen;     // by sample: share of what they meet now that is seen
+  std::array<double, batch_size> follow;  // by sample: weight of indirect light
+};
 
 /// The samples of a batch that see one kind of surface: their vertices, which are large and kept in the scratch, and
 /// where they come from.
@@ -30,47 +37,59 @@ struct Seen {
   SequenceBatch numbers = {};
 
   size_t count() const { return size_t(numbers.count); }
-  /// Room for the point of sample k.
-  Point& add(size_t k, const SequenceBatch& all) {
-    const auto n = size_t(numbers.count++);
-    sample[n] = k;
-    numbers.seed[n] = all.seed[k];
-    numbers.index[n] = all.index[k];
-    return points[n];
+  std::span<const Point> met() const { return {points.data(), count()}; }
+  /// Room for the point of sample k, which takes the n-th numbers.
+  Point& add(size_t k, const SequenceBatch& all, size_t n) {
+    const auto to = size_t(numbers.count++);
+    sample[to] = k;
+    numbers.seed[to] = all.seed[n];
+    numbers.index[to] = all.index[n];
+    return points[to];
   }
 };
 
-/// Weights of the indirect light of a batch: 0 for the samples that do not follow it.
-Batch1 follow_weights(const LightSettings& settings, const SequenceBatch& samples) {
-  Batch1 weights{};
+/// Decides which samples follow indirect light, and with what weight; the others get 0.
+template <class Point>
+void weigh_indirect(const LightSettings& settings, const Seen<Point>& seen, Sights& sights) {
   Batch1 choice{};  // 0 is always below the share
-  if (settings.bounce_share < 1) choice = draw(samples, Dimension::bounces);
-  for (size_t k = 0; k < size_t(samples.count); ++k)
-    if (choice[k] < double(settings.bounce_share)) weights[k] = double(1 / settings.bounce_share);
-  return weights;
+  if (settings.bounce_share < 1) choice = draw(seen.numbers, Dimension::bounces);
+  for (size_t n = 0; n < seen.count(); ++n)
+    sights.follow[seen.sample[n]] = choice[n] < double(settings.bounce_share) ? double(1 / settings.bounce_share) : 0;
 }
 
 /// Indirect light of the points that follow it, times their weights; the others get none.
 template <class Point>
-void indirect_light(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
-                    std::span<const Point> points, const Batch1& weights, const SampleId* const* ids,
-                    PathScratch& scratch, BounceLight* light) {
+void indirect_light(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const Seen<Point>& seen,
+                    const Sights& sights, PathScratch& scratch, BounceLight* light) {
   std::array<PathStart, batch_size> starts;
   std::array<size_t, batch_size> of;
   std::array<BounceLight, batch_size> followed;
   size_t count = 0;
-  for (size_t n = 0; n < points.size(); ++n) {
+  for (size_t n = 0; n < seen.count(); ++n) {
     light[n] = {};
-    if (weights[n] == 0) continue;
+    if (sights.follow[seen.sample[n]] == 0) continue;
     of[count] = n;
-    starts[count++] = {points[n], *ids[n]};
+    starts[count++] = {seen.points[n], sights.ids[seen.sample[n]]};
   }
   if (count == 0) return;
   follow_bounces(scene, settings, seed, {starts.data(), count}, scratch, followed.data());
   for (size_t m = 0; m < count; ++m) {
     light[of[m]] = followed[m];
-    for (Color& bounce : light[of[m]].bounce) bounce *= float(weights[of[m]]);
+    for (Color& bounce : light[of[m]].bounce) bounce *= float(sights.follow[seen.sample[of[m]]]);
   }
+}
+
+/// Sequences of a layer that some samples see.
+SequenceBatch layer_sequences(std::uint32_t seed, std::span<const SampleId> ids, std::span<const size_t> sample,
+                              int layer) {
+  SequenceBatch batch;
+  batch.count = int(sample.size());
+  for (size_t n = 0; n < sample.size(); ++n) {
+    const SampleId& id = ids[sample[n]];
+    batch.seed[n] = pixel_sequence(seed, id.x, id.y, id.replicate, -layer).seed;
+    batch.index[n] = id.index;
+  }
+  return batch;
 }
 
 /// The backdrop, of which `passed` reaches the eye.
@@ -101,99 +120,137 @@ void see_ground(const Scene& scene, const GroundPoint& point, const GroundLight&
   for (Color& bounce : out.indirect.bounce) bounce *= covered * passed;
 }
 
-/// What is seen through the gaps of the first layer of sheer cloth; `eye` the camera ray as it is traced, `follow`
-/// the weight of indirect light.
-void look_through(const Scene& scene, const LightSettings& settings, ClothPoint point, const Ray& eye,
-                  std::uint32_t seed, const SampleId& id, double follow, PathScratch& scratch, CameraSample& out) {
-  const YTurn object = point.object;
-  const Vec3 direction = scene.shutter ? turned(eye.direction, object) : eye.direction;
-  const SampleId* const ids[] = {&id};
-  Batch1 weight{};
-  weight[0] = follow;
-  float passed = passing(point.gap, point.yarn);
-  for (int layer = 1; passed > 0 && layer < most_layers; ++layer) {
-    Ray ray = eye;
-    ray.origin = offset_origin(point.surface, ray.direction);
-    ++scratch.counts.camera;
-    // Another layer gets numbers of its own.
-    const SequenceBatch numbers = alone(seed, id, -layer);
-    double choice = scene.has_maps ? draw(numbers.sequence(0), Dimension::pattern, id.index) : 0;
-    const std::optional<Vertex> next =
-        meet(scene, ray, object, scene.ground ? &*scene.ground : nullptr, [&](const Hit& hit) {
-          ClothPoint met;
-          seen_cloth(scene, hit, eye, object, choice, met);
-          return met;
-        });
-    if (!next) return see_backdrop(scene, direction, passed, out);
-    BounceLight indirect;
-    if (const auto* ground = std::get_if<GroundPoint>(&*next)) {
-      GroundLight light;
-      light_on_ground(scene, {ground, 1}, numbers, scratch.counts, &light);
-      indirect_light<GroundPoint>(scene, settings, seed, {ground, 1}, weight, ids, scratch, &indirect);
-      return see_ground(scene, *ground, light, indirect, direction, passed, scratch, out);
-    }
-    point = std::get<ClothPoint>(*next);
-    LobeLight direct;
-    direct_light(scene, {&point, 1}, settings, numbers, scratch, &direct);
-    if (keep(direct.total(), scratch.counts)) out.through_gaps += direct.total() * passed;
-    indirect_light<ClothPoint>(scene, settings, seed, {&point, 1}, weight, ids, scratch, &indirect);
-    out.through_gaps += indirect.total() * passed;
-    passed *= passing(point.gap, point.yarn);
-  }
-}
-
-template <class Point>
-std::array<const SampleId*, batch_size> ids_of(const Seen<Point>& seen, std::span<const SampleId> samples) {
-  std::array<const SampleId*, batch_size> ids;
-  for (size_t n = 0; n < seen.count(); ++n) ids[n] = &samples[seen.sample[n]];
-  return ids;
-}
-
 void light_ground(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
-                  std::span<const SampleId> samples, const Seen<GroundPoint>& seen, const Ray* rays,
-                  PathScratch& scratch, CameraSample* out) {
-  const std::span<const GroundPoint> points{seen.points.data(), seen.count()};
+                  const Seen<GroundPoint>& seen, Sights& sights, PathScratch& scratch, CameraSample* out) {
   std::array<GroundLight, batch_size> light;
-  light_on_ground(scene, points, seen.numbers, scratch.counts, light.data());
-  std::array<BounceLight, batch_size> indirect;
-  Batch1 weights{};
-  if (scene.ground->blocks_light() && settings.bounces > 0) weights = follow_weights(settings, seen.numbers);
-  indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
+  light_on_ground(scene, seen.met(), seen.numbers, scratch.counts, light.data());
+  std::array<BounceLight, batch_size> indirect{};
+  if (scene.ground->blocks_light() && settings.bounces > 0) {
+    if (sights.layer == 0) weigh_indirect(settings, seen, sights);
+    indirect_light(scene, settings, seed, seen, sights, scratch, indirect.data());
+  }
   for (size_t n = 0; n < seen.count(); ++n) {
     const size_t k = seen.sample[n];
-    see_ground(scene, points[n], light[n], indirect[n], rays[k].direction, 1, scratch, out[k]);
+    see_ground(scene, seen.points[n], light[n], indirect[n], sights.world[k].direction, sights.passed[k], scratch,
+               out[k]);
   }
 }
 
-void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_t seed,
-                 std::span<const SampleId> samples, const Seen<ClothPoint>& seen, const Ray* traced,
-                 PathScratch& scratch, CameraSample* out) {
-  const std::span<const ClothPoint> points{seen.points.data(), seen.count()};
+/// CameraSample::presence of a point.
+std::array<float, 2> presence_of(const ClothPoint& point) {
+  std::array<float, 2> presence{1, 1};
+  const VaryingThreads* varying = point.mapped ? point.fabric->varying.get() : nullptr;
+  for (size_t family = 0; family < 2; ++family) {
+    const Weave& weave = point.fabric->weave;
+    const float mean = varying ? varying->values[family].coverage : float(weave.coverage[family]);
+    if (varying && mean > 0) presence[family] = point.values.family[family].coverage / mean;
+    if (point.yarn.near == 0) continue;
+    const float yarn = point.yarn.family == int(family) && mean > 0 ? point.yarn.light / mean : 0;
+    presence[family] += (yarn - presence[family]) * point.yarn.near;
+  }
+  return presence;
+}
+
+/// The first cloth that a sample sees: what else is told of it.
+void see_first(const Scene& scene, const ClothPoint& point, CameraSample& sample) {
+  sample.hit = true;
+  sample.position =
+      scene.shutter ? scene.shutter->to_world(point.surface.position, point.object) : point.surface.position;
+  sample.normal = point.frame.z;
+  sample.warp = point.frame.x;
+  sample.uv = point.surface.uv;
+  sample.wo = point.wo;
+  sample.back = scene.back && point.on_back;
+  sample.fabric = point.fabric;
+  sample.A = point.mapped ? point.values.A : point.fabric->A;
+  sample.presence = presence_of(point);
+  sample.alpha = 1;
+}
+
+void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const Seen<ClothPoint>& seen,
+                 Sights& sights, PathScratch& scratch, CameraSample* out) {
   std::array<LobeLight, batch_size> direct;
-  direct_light(scene, points, settings, seen.numbers, scratch, direct.data());
-  Batch1 weights{};
+  direct_light(scene, seen.met(), settings, seen.numbers, scratch, direct.data());
+  std::array<BounceLight, batch_size> indirect;
   if (settings.bounces > 0) {
-    std::array<BounceLight, batch_size> indirect;
-    weights = follow_weights(settings, seen.numbers);
-    indirect_light(scene, settings, seed, points, weights, ids_of(seen, samples).data(), scratch, indirect.data());
-    for (size_t n = 0; n < seen.count(); ++n) out[seen.sample[n]].indirect = indirect[n];
+    if (sights.layer == 0) weigh_indirect(settings, seen, sights);
+    indirect_light(scene, settings, seed, seen, sights, scratch, indirect.data());
   }
   for (size_t n = 0; n < seen.count(); ++n) {
     const size_t k = seen.sample[n];
-    const ClothPoint& point = points[n];
-    CameraSample& sample = out[k];
-    sample.hit = true;
-    sample.position =
-        scene.shutter ? scene.shutter->to_world(point.surface.position, point.object) : point.surface.position;
-    sample.normal = point.frame.z;
-    sample.warp = point.frame.x;
-    sample.uv = point.surface.uv;
-    sample.wo = point.wo;
-    sample.back = scene.back && point.on_back;
-    sample.alpha = 1;
-    if (keep(direct[n].total(), scratch.counts)) sample.direct = direct[n];
-    if (scene.has_gaps && passing(point.gap, point.yarn) > 0)
-      look_through(scene, settings, point, traced[k], seed, samples[k], weights[n], scratch, sample);
+    const bool good = keep(direct[n].total(), scratch.counts);
+    if (sights.layer == 0) {
+      see_first(scene, seen.points[n], out[k]);
+      if (good) out[k].direct = direct[n];
+      if (settings.bounces > 0) out[k].indirect = indirect[n];
+      continue;
+    }
+    if (good) out[k].through_gaps += direct[n].total();
+    if (settings.bounces > 0) out[k].through_gaps += indirect[n].total();
+  }
+}
+
+/// Sends those rays on that see something through the gaps of the cloth that they met: returns how many, which
+/// samples they are, and the rays.
+size_t pass_layer(const Seen<ClothPoint>& seen, Sights& sights, size_t* sample, Ray* rays) {
+  size_t count = 0;
+  for (size_t n = 0; n < seen.count(); ++n) {
+    const size_t k = seen.sample[n];
+    const ClothPoint& point = seen.points[n];
+    sights.seen[k] = sights.passed[k];
+    if (!((sights.passed[k] *= passing(point.gap, point.yarn)) > 0)) continue;
+    rays[count] = sights.traced[k];
+    rays[count].origin = offset_origin(point.surface, rays[count].direction);
+    sample[count++] = k;
+  }
+  return count;
+}
+
+/// Keeps of a deeper layer the points that are lit: as large a share of the samples as is seen of it, so that nothing
+/// is left to weigh. Rays are cheap and light is not: on the drape half of the time for a tenth more noise. Sight and
+/// alpha go through all layers.
+void thin_out(Seen<ClothPoint>& layer, const Sights& sights) {
+  const Batch1 u = draw(layer.numbers, Dimension::roulette);
+  size_t kept = 0;
+  for (size_t n = 0; n < layer.count(); ++n) {
+    const size_t k = layer.sample[n];
+    if (!(float(u[n]) < sights.seen[k])) continue;
+    if (kept != n) layer.points[kept] = layer.points[n];
+    layer.sample[kept] = k;
+    layer.numbers.seed[kept] = layer.numbers.seed[n];
+    layer.numbers.index[kept++] = layer.numbers.index[n];
+  }
+  layer.numbers.count = int(kept);
+}
+
+/// What the rays of the samples meet next. What meets the same kind of surface moves together.
+void meet_layer(const Scene& scene, const Sights& sights, const SequenceBatch& numbers, const size_t* sample,
+                const Ray* rays, PathScratch& scratch, Seen<ClothPoint>& cloth, Seen<GroundPoint>& ground,
+                CameraSample* out) {
+  const auto count = size_t(numbers.count);
+  std::array<Hit, batch_size> hits;
+  std::array<bool, batch_size> found;
+  constexpr size_t packet = RayTracer::packet_size;
+  for (size_t n = 0; n < count; n += packet)
+    scene.rays->closest_hits({&rays[n], std::min(count - n, packet)}, &hits[n], &found[n]);
+  scratch.counts.camera += std::int64_t(count);
+  Batch1 pattern{};
+  if (scene.has_maps) pattern = draw(numbers, Dimension::pattern);
+  for (size_t n = 0; n < count; ++n) {
+    const size_t k = sample[n];
+    const YTurn object = scene.shutter ? scratch.moving.object[k] : YTurn();
+    if (scene.ground) {
+      const float t_max = !found[n] ? far_away : scene.ground->blocks_light() ? hits[n].t : 0;
+      const std::optional<GroundPoint> point = met_ground(scene, *scene.ground, rays[n], object, t_max);
+      if (point && ground_opacity(*scene.ground, point->position) > 0) {
+        ground.add(k, numbers, n) = *point;
+        continue;
+      }
+    }
+    if (found[n])
+      seen_cloth(scene, hits[n], sights.traced[k], object, pattern[n], cloth.add(k, numbers, n));
+    else
+      see_backdrop(scene, sights.world[k].direction, sights.passed[k], out[k]);
   }
 }
 
@@ -209,41 +266,32 @@ void trace_samples(const Scene& scene, const LightSettings& settings, std::uint3
     rays[k] = scene.camera.ray(float(samples[k].x) + 0.5f + place.x, float(samples[k].y) + 0.5f + place.y);
   }
   if (scene.lens) through_lens(scene.camera, *scene.lens, draw2(all, Dimension::lens), {rays.data(), samples.size()});
-  const Ray* traced = rays.data();
+  Sights sights{samples, rays.data(), rays.data(), 0, {}, {}, {}};
   if (scene.shutter) {
     open_shutter(*scene.shutter, draw(all, Dimension::time), {rays.data(), samples.size()}, scratch.moving);
-    traced = scratch.moving.traced.data();
+    sights.traced = scratch.moving.traced.data();
   }
-  std::array<Hit, batch_size> hits;
-  std::array<bool, batch_size> found;
-  constexpr size_t packet = RayTracer::packet_size;
-  for (size_t k = 0; k < samples.size(); k += packet)
-    scene.rays->closest_hits({&traced[k], std::min(samples.size() - k, packet)}, &hits[k], &found[k]);
-  scratch.counts.camera += std::int64_t(samples.size());
-  Batch1 pattern{};
-  if (scene.has_maps) pattern = draw(all, Dimension::pattern);
-
-  // What meets the same kind of surface moves together.
-  Seen<ClothPoint> cloth{scratch.cloth, {}};
-  Seen<GroundPoint> ground{scratch.ground, {}};
+  sights.passed.fill(1);
+  std::array<size_t, batch_size> sample;
+  std::array<Ray, batch_size> beyond;
   for (size_t k = 0; k < samples.size(); ++k) {
     out[k] = {};
-    const YTurn object = scene.shutter ? scratch.moving.object[k] : YTurn();
-    if (scene.ground) {
-      const float t_max = !found[k] ? far_away : scene.ground->blocks_light() ? hits[k].t : 0;
-      const std::optional<GroundPoint> point = met_ground(scene, *scene.ground, traced[k], object, t_max);
-      if (point && ground_opacity(*scene.ground, point->position) > 0) {
-        ground.add(k, all) = *point;
-        continue;
-      }
-    }
-    if (found[k])
-      seen_cloth(scene, hits[k], traced[k], object, pattern[k], cloth.add(k, all));
-    else
-      see_backdrop(scene, rays[k].direction, 1, out[k]);
+    sample[k] = k;
   }
-  if (ground.count() > 0) light_ground(scene, settings, seed, samples, ground, rays.data(), scratch, out);
-  if (cloth.count() > 0) light_cloth(scene, settings, seed, samples, cloth, traced, scratch, out);
+  const Ray* from = sights.traced;
+  for (size_t count = samples.size(); count > 0 && sights.layer < most_layers; from = beyond.data()) {
+    Seen<ClothPoint> cloth{scratch.cloth, {}};
+    Seen<GroundPoint> ground{scratch.ground, {}};
+    // Every layer gets numbers of its own.
+    const SequenceBatch numbers =
+        sights.layer == 0 ? all : layer_sequences(seed, samples, {sample.data(), count}, sights.layer);
+    meet_layer(scene, sights, numbers, sample.data(), from, scratch, cloth, ground, out);
+    if (ground.count() > 0) light_ground(scene, settings, seed, ground, sights, scratch, out);
+    count = scene.has_gaps ? pass_layer(cloth, sights, sample.data(), beyond.data()) : 0;
+    if (sights.layer > 0) thin_out(cloth, sights);
+    if (cloth.count() > 0) light_cloth(scene, settings, seed, cloth, sights, scratch, out);
+    ++sights.layer;
+  }
 }
 
 CameraSample trace_sample(const Scene& scene, const LightSettings& settings, std::uint32_t seed,

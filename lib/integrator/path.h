@@ -16,6 +16,11 @@ struct CameraSample {
   Vec2 uv{0, 0};
   Vec3 wo{0, 0, 1};   ///< cloth frame
   bool back = false;  ///< the cloth's back is seen
+  const Fabric* fabric = nullptr;
+  /// A of warp and weft there, and how much of their light there is for each part of the fabric's mean: not 1 where
+  /// textures give a coverage, and all of one family where its yarn is seen from near.
+  std::array<Color, 2> A{Color(0), Color(0)};
+  std::array<float, 2> presence{1, 1};
 
   Color total() const { return direct.total() + indirect.total() + through_gaps + backdrop; }
 };

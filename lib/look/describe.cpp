@@ -135,7 +135,10 @@ std::string texture_schema(bool color) {
       "\"scale\": {{\"type\": \"number\", \"default\": 1}}, \"offset\": {{\"type\": \"number\", \"default\": 0}}, "
       "\"repeat\": {{\"description\": \"How often over one unit of u and of v\", \"type\": \"array\", "
       "\"minItems\": 2, \"maxItems\": 2, \"items\": {{\"type\": \"number\", \"minimum\": 0.001, \"maximum\": "
-      "10000}}}}, \"wrap\": {{\"enum\": [\"repeat\", \"clamp\", \"mirror\"]}}}}}}",
+      "10000}}}}, \"repeat_cm\": {{\"description\": \"Size of one repeat on the cloth along u and v, in "
+      "centimetres\", "
+      "\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, \"items\": {{\"type\": \"number\", \"minimum\": 0.001, "
+      "\"maximum\": 100000}}}}, \"wrap\": {{\"enum\": [\"repeat\", \"clamp\", \"mirror\"]}}}}}}",
       color ? ", \"space\"" : "",
       color ? "\"space\": {\"description\": \"Colour space of the pixels\", \"type\": \"string\", \"minLength\": 1}, "
             : "");

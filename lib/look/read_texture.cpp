@@ -32,6 +32,13 @@ struct Reader {
     to = float(item.number) + 0.0f;
   }
 
+  void pair(std::array<float, 2>& to, const JsonValue& item, double low, double high, const std::string& expected) {
+    if (item.kind != Kind::list || item.items.size() != 2)
+      return fault(item.place,
+                   fmt::format("{} of {} is no list of two numbers, expected {}", item.key, name, expected));
+    for (size_t i = 0; i < 2; ++i) number(to[i], item.items[i], low, high, item.key);
+  }
+
   void text(std::string& to, const JsonValue& item, std::string_view expected) {
     if (item.kind != Kind::text || item.text.empty() || item.text.find('\0') != std::string::npos)
       return fault(item.place, fmt::format("{} of {} is no text, expected {}", item.key, name, expected));
@@ -76,8 +83,9 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
     reader.fault(value.place, fmt::format("{} cannot be a texture", name), "colours and most numbers can");
     return false;
   }
-  constexpr double most = 1e6, least_repeat = 1e-3, most_repeat = 1e4;
+  constexpr double most = 1e6, least_repeat = 1e-3, most_repeat = 1e4, least_cm = 1e-3, most_cm = 1e5;
   TextureValue texture;
+  const JsonValue *repeats = nullptr, *sizes = nullptr;
   const bool color = field.kind == FieldKind::color;
   for (const JsonValue& item : value.items) {
     if (item.key == "texture") {
@@ -94,12 +102,11 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
     } else if (item.key == "offset") {
       reader.number(texture.offset, item, -most, most, "offset");
     } else if (item.key == "repeat") {
-      if (item.kind == Kind::list && item.items.size() == 2)
-        for (size_t i = 0; i < 2; ++i)
-          reader.number(texture.repeat[i], item.items[i], least_repeat, most_repeat, "repeat");
-      else
-        reader.fault(item.place,
-                     fmt::format("repeat of {} is no list of two numbers, expected [along u, along v]", name));
+      reader.pair(texture.repeat, item, least_repeat, most_repeat, "[along u, along v]");
+      repeats = &item;
+    } else if (item.key == "repeat_cm") {
+      reader.pair(texture.repeat_cm, item, least_cm, most_cm, "[centimetres along u, centimetres along v]");
+      sizes = &item;
     } else if (item.key == "wrap") {
       const auto& names = wrap_names();
       const auto found = std::find(names.begin(), names.end(), item.kind == Kind::text ? item.text : std::string());
@@ -111,15 +118,21 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
         texture.wrap = TextureWrap(found - names.begin());
     } else {
       reader.fault(item.key_place, fmt::format("unknown key {} in the texture of {}", shown_name(item.key), name),
-                   suggestion(item.key, {"texture", "space", "scale", "offset", "repeat", "wrap"}));
+                   suggestion(item.key, {"texture", "space", "scale", "offset", "repeat", "repeat_cm", "wrap"}));
     }
   }
   if (color && texture.space.empty() && reader.good)
     reader.fault(value.place, fmt::format("the texture of {} does not say in which colour space it is", name),
                  "add \"space\": \"srgb_texture\" for most pictures, \"lin_rec709\" for most OpenEXR files");
-  if (is_udim(texture.path) && (texture.repeat != std::array<float, 2>{1, 1} || texture.wrap != TextureWrap::repeat))
-    reader.fault(value.place,
-                 fmt::format("the texture of {} has <UDIM> and repeat or wrap, expected one of them", name));
+  if (repeats && sizes)
+    reader.fault(sizes->key_place,
+                 fmt::format("the texture of {} has repeat and repeat_cm, expected one of them", name),
+                 "repeat counts copies in a unit of the UVs, repeat_cm is the size of one on the cloth");
+  if (is_udim(texture.path) &&
+      (texture.repeat != std::array<float, 2>{1, 1} || sizes || texture.wrap != TextureWrap::repeat))
+    reader.fault(value.place, fmt::format("the texture of {} has <UDIM> and repeat, repeat_cm or wrap, expected one "
+                                          "of them",
+                                          name));
   if (reader.good) to = std::move(texture);
   return reader.good;
 }

@@ -23,6 +23,7 @@ std::string settings_text(const TextureValue& t) {
   if (t.scale != 1) text += fmt::format(", \"scale\": {}", t.scale + 0.0f);
   if (t.offset != 0) text += fmt::format(", \"offset\": {}", t.offset);
   if (t.repeat != std::array<float, 2>{1, 1}) text += fmt::format(", \"repeat\": [{}, {}]", t.repeat[0], t.repeat[1]);
+  if (is_sized(t)) text += fmt::format(", \"repeat_cm\": [{}, {}]", t.repeat_cm[0], t.repeat_cm[1]);
   if (t.wrap != TextureWrap::repeat) text += fmt::format(", \"wrap\": \"{}\"", wrap_names()[size_t(t.wrap)]);
   return text;
 }

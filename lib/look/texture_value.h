@@ -9,7 +9,7 @@
 namespace sateen {
 
 /// A texture that stands in place of a value of a look:
-///     {"texture": "print.png", "space": "srgb_texture", "repeat": [4, 4]}
+///     {"texture": "print.png", "space": "srgb_texture", "repeat_cm": [12, 12]}
 /// The value at a point is pixel * scale + offset, after a colour's pixels have been brought from `space` into the
 /// working space; numbers are the pixels' first channel. `<UDIM>` in the path stands for 1001 + u + 10 v: one file
 /// for each unit square of the UVs.
@@ -18,9 +18,16 @@ struct TextureValue {
   std::string space;  ///< of a colour's pixels, never empty; of numbers: empty
   float scale = 1, offset = 0;
   std::array<float, 2> repeat{1, 1};  ///< how often it is repeated over one unit of u and of v, 0.001 to 10000
+  /// Size of one repeat along u and v on the cloth [centimetres], 0.001 to 100000; 0, 0: `repeat` says it.
+  std::array<float, 2> repeat_cm{0, 0};
   TextureWrap wrap = TextureWrap::repeat;
   std::string origin;  ///< "looks/silk.json:14" or "--set", for messages alone
 };
+
+/// Whether its size is in centimetres: it takes a cloth of a known size.
+inline bool is_sized(const TextureValue& texture) {
+  return texture.repeat_cm[0] > 0;
+}
 
 bool is_udim(const std::string& path);
 

@@ -38,7 +38,7 @@ std::vector<std::string> ladder_of(std::vector<float> steps, float asked) {
 }
 
 void rebuild_looks(const SceneSettings& settings, const ColorManager& colors, Scene& scene) {
-  compile_looks(read_look(settings.look, settings.look_overrides), settings, colors, scene);
+  compile_looks(read_look(settings.look, settings.look_overrides), settings, colors, scene.metres_per_uv, scene);
 }
 
 Approximation quadrature() {

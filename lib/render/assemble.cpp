@@ -132,6 +132,7 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
           made.wanted));
   }
   report.triangles = mesh->triangles();
+  report.metres_per_uv = settings.uv_metres > 0 ? settings.uv_metres : mesh->metres_per_uv;
   report.warnings.insert(report.warnings.end(), mesh->warnings.begin(), mesh->warnings.end());
   if (mesh->fallback_warps > 0)
     report.warnings.push_back(
@@ -147,17 +148,19 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   return cloth;
 }
 
+float uv_metres(const SceneReport& report) {
+  return report.metres_per_uv > 0 ? report.metres_per_uv : 1;
+}
+
 /// How large the cloth is and from how near its threads show.
-void settle_weave(const SceneSettings& settings, Scene& scene, SceneReport& report) {
-  if (scene.front.weave.empty() && (!scene.back || scene.back->weave.empty())) return;
-  const float known = settings.uv_metres > 0 ? settings.uv_metres : scene.mesh->metres_per_uv;
-  scene.metres_per_uv = known > 0 ? known : 1;
+void settle_weave(const SceneSettings& settings, bool sized_textures, Scene& scene, SceneReport& report) {
+  scene.metres_per_uv = uv_metres(report);
   scene.near_weave_pixel = near_weave_pixel(scene);
-  if (!(known > 0) && may_show_yarns(scene))
-    report.warnings.push_back(
-        fmt::format("{}: nothing says how large the cloth is; its threads are counted as if one UV unit were a metre "
-                    "(--uv-metres)",
-                    settings.mesh));
+  const bool threads = scene.near_weave_pixel > 0 && may_show_yarns(scene);
+  if (report.metres_per_uv > 0 || !(threads || sized_textures)) return;
+  report.warnings.push_back(
+      fmt::format("{}: nothing says how large the cloth is; its {} as if one UV unit were a metre (--uv-metres)",
+                  settings.mesh, sized_textures ? "textures are sized" : "threads are counted"));
 }
 
 std::string hash_environment(const Environment& environment) {
@@ -169,14 +172,14 @@ std::string hash_environment(const Environment& environment) {
 }  // namespace
 
 std::vector<std::string> compile_looks(const Look& look, const SceneSettings& settings, const ColorManager& colors,
-                                       Scene& scene) {
+                                       float metres_per_uv, Scene& scene) {
   FabricParts parts;
   parts.threads = settings.threads;
   parts.quadrature = settings.approximations.quadrature;
   parts.table_size = settings.approximations.table_size;
-  CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg);
+  CompiledSide front = compile_side(look, colors, parts, settings.warp_angle_deg, metres_per_uv);
   std::optional<CompiledSide> back;
-  if (!look.back.empty()) back = compile_side(read_back(look), colors, parts);
+  if (!look.back.empty()) back = compile_side(read_back(look), colors, parts, 0, metres_per_uv);
   std::vector<std::string> warnings = front.warnings;
   if (back) warnings.insert(warnings.end(), back->warnings.begin(), back->warnings.end());
   set_sides(scene, std::move(front), std::move(back));
@@ -219,8 +222,11 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   const double start = now();
   std::exception_ptr failure;
   std::vector<std::string> warnings;
+  bool sized_textures = false;
   try {
-    warnings = compile_looks(look, settings, colors, scene);
+    sized_textures = has_sized_textures(look) || (!look.back.empty() && has_sized_textures(read_back(look)));
+    if (sized_textures) cloth.wait();
+    warnings = compile_looks(look, settings, colors, sized_textures ? uv_metres(report) : 1, scene);
   } catch (...) {
     failure = std::current_exception();  // the other two still hold references to this frame
   }
@@ -238,7 +244,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
-  settle_weave(settings, scene, report);
+  settle_weave(settings, sized_textures, scene, report);
   for (const std::string& notice : environment_notices(scene.environment))
     report.warnings.push_back(settings.environment + ": " + notice);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());

@@ -45,7 +45,8 @@ struct SceneReport {
   std::string look_hash, mesh_hash, environment_hash;
   std::int64_t cage_faces = 0, triangles = 0, tracer_bytes = 0;
   int level = 0;
-  float metered_ev = 0;  ///< display exposure that the light asks for (render/exposure.h)
+  float metres_per_uv = 0;  ///< the cloth's size, asked for or as the mesh says; 0: nothing says it
+  float metered_ev = 0;     ///< display exposure that the light asks for (render/exposure.h)
   double look_seconds = 0, mesh_seconds = 0, environment_seconds = 0, tracer_seconds = 0;  ///< wall clock
   std::vector<std::string> warnings;
 };
@@ -53,9 +54,10 @@ struct SceneReport {
 /// Reads, compiles and joins everything that a picture needs. Look, mesh and map are worked on side by side.
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report);
 
-/// Compiles the look, and the one of its back, into a scene. Returns warnings.
+/// Compiles the look, and the one of its back, into a scene; textures of a stated size go by `metres_per_uv`. Returns
+/// warnings.
 std::vector<std::string> compile_looks(const Look& look, const SceneSettings& settings, const ColorManager& colors,
-                                       Scene& scene);
+                                       float metres_per_uv, Scene& scene);
 
 /// Reads the light that the settings name, at the size that they ask for.
 Environment read_light(const SceneSettings& settings, const ColorManager& colors);

@@ -23,9 +23,10 @@ bool contains(const std::vector<Effect>& effects, Effect effect) {
   return std::find(effects.begin(), effects.end(), effect) != effects.end();
 }
 
-void close_gaps(Fabric& fabric) {
+void close_all_gaps(Fabric& fabric) {
   // The darkening by Q stays: it is part of the cloth's own light.
   fabric.gap = 0;
+  close_gaps(fabric.weave);
 }
 
 /// Changes the maps of both sides, and lets go of those that say nothing any more.
@@ -143,8 +144,11 @@ void remove_effect(Effect effect, Scene& scene, LightSettings& light) {
       keep_maps(scene, [](SideMaps& side) { side.pattern.reset(); });
       break;
     case Effect::gaps:
-      close_gaps(scene.front);
-      if (scene.back) close_gaps(*scene.back);
+      close_all_gaps(scene.front);
+      if (scene.back) close_all_gaps(*scene.back);
+      keep_maps(scene, [](SideMaps& side) {
+        if (side.pattern) close_all_gaps(side.pattern->fabric);
+      });
       scene.has_gaps = false;
       break;
     case Effect::weave:

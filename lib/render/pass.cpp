@@ -22,7 +22,7 @@ void add_layers(LayerPixel& layer, const CameraSample& s, const AlbedoMaps& albe
   layer.through_gaps += s.through_gaps;
   layer.backdrop += s.backdrop;
   if (!s.hit) return;
-  layer.albedo += look_up(s.back ? albedo.back : albedo.front, s.wo);
+  layer.albedo += sample_albedo(albedo, s);
   layer.normal += s.normal;
   layer.position += s.position;
   layer.warp += s.warp;

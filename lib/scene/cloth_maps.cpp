@@ -7,16 +7,6 @@ namespace sateen {
 
 namespace {
 
-struct NumberMap {
-  std::array<FabricMaps::Map, 2> FabricMaps::*map;
-  float FamilyValues::*value;
-};
-constexpr NumberMap number_maps[] = {{&FabricMaps::coverage, &FamilyValues::coverage},
-                                     {&FabricMaps::k_d, &FamilyValues::k_d},
-                                     {&FabricMaps::eta, &FamilyValues::eta},
-                                     {&FabricMaps::gamma_s, &FamilyValues::gamma_s},
-                                     {&FabricMaps::gamma_v, &FamilyValues::gamma_v}};
-
 float fabric_gap_at(const FabricMaps& maps, const Fabric& fabric, const Vec2& uv, const Footprint& footprint) {
   return maps.coverage[0] || maps.coverage[1] ? values_at(maps, uv, footprint).gap : fabric.gap;
 }
@@ -46,13 +36,15 @@ PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& f
     for (size_t family = 0; family < 2; ++family)
       if (const FabricMaps::Map& map = (maps.*n.map)[family])
         map->look_up(uv, footprint, &(values.family[family].*n.value));
-  if (maps.coverage[0] || maps.coverage[1]) {
-    const float sum = values.family[0].coverage + values.family[1].coverage;
-    if (sum > 1)
-      for (FamilyValues& family : values.family) family.coverage /= sum;
-    values.gap = gap_of(values.family);
-  }
+  if (maps.coverage[0] || maps.coverage[1]) settle_gap(values);
   return values;
+}
+
+void settle_gap(PointValues& values) {
+  const float sum = values.family[0].coverage + values.family[1].coverage;
+  if (sum > 1)
+    for (FamilyValues& family : values.family) family.coverage /= sum;
+  values.gap = gap_of(values.family);
 }
 
 float warp_angle_at(const FabricMaps& maps, const Fabric& fabric, const Vec2& uv, const Footprint& footprint) {

@@ -20,6 +20,17 @@ struct FabricMaps {
   bool any_numbers() const;  ///< some of FamilyValues
 };
 
+/// A number that may have a texture, and its place among the values of a point.
+struct NumberMap {
+  std::array<FabricMaps::Map, 2> FabricMaps::*map;
+  float FamilyValues::*value;
+};
+inline constexpr NumberMap number_maps[] = {{&FabricMaps::coverage, &FamilyValues::coverage},
+                                            {&FabricMaps::k_d, &FamilyValues::k_d},
+                                            {&FabricMaps::eta, &FamilyValues::eta},
+                                            {&FabricMaps::gamma_s, &FamilyValues::gamma_s},
+                                            {&FabricMaps::gamma_v, &FamilyValues::gamma_v}};
+
 /// The look that a pattern weaves in.
 struct PatternMaps {
   Fabric fabric;
@@ -33,6 +44,9 @@ struct SideMaps {
   FabricMaps own;
   std::optional<PatternMaps> pattern;
 };
+
+/// Brings the coverage of both families within 1; what is left are gaps.
+void settle_gap(PointValues& values);
 
 PointValues values_at(const FabricMaps& maps, const Vec2& uv, const Footprint& footprint);
 

@@ -27,6 +27,7 @@ bool clamp_into(float& value, float low, float high) {
 struct MapReader {
   const Look& look;
   const ColorManager& colors;
+  float metres_per_uv;
   std::vector<std::string>& warnings;
   std::map<std::string, Map> read_already = {};
 
@@ -40,7 +41,7 @@ struct MapReader {
     Map& map = read_already[texture_text(value, {}) + what];
     if (map) return map;
     PixelCounts counts;
-    map = std::make_shared<const UvTexture>(read_uv_texture(value, path, colors, use, counts));
+    map = std::make_shared<const UvTexture>(read_uv_texture(value, path, colors, use, metres_per_uv, counts));
     const auto warn = [&](long long count, const std::string& text) {
       if (count > 0)
         warnings.push_back(fmt::format("{}: {} of the {} pixels of the texture of {} {}", value.origin, count,
@@ -176,11 +177,38 @@ std::array<float, 2> narrowest_lobes(const FabricMaps& maps) {
   return narrowest;
 }
 
-Fabric compile_mapped(const Look& look, const ColorManager& colors, FabricParts parts, float turn, FabricMaps& maps,
-                      std::vector<std::string>& warnings) {
+/// CompiledSide::color_error; `normal`: what A was solved for.
+float color_error(const Fabric& fabric, const FabricMaps& maps, const Albedo& normal) {
+  constexpr int thetas = 72;  // two digits are told
+  const Vec3 above(0, 0, 1);
+  Threads<float> threads = fabric.varying->threads;
+  float worst = 0;
+  for (const NumberMap& number : number_maps)
+    for (size_t f = 0; f < 2; ++f) {
+      const Map& map = (maps.*number.map)[f];
+      if (!map) continue;
+      for (const float end : {map->low[0], map->high[0]}) {
+        PointValues point = maps.constant;
+        point.family[f].*number.value = end;
+        settle_gap(point);
+        rewrite_threads(*fabric.varying, point, threads);
+        const Albedo there = albedo(threads, above, thetas);
+        for (size_t c = 0; c < 3; ++c) {
+          float error = there.surface - normal.surface;
+          for (size_t g = 0; g < 2; ++g)
+            error += (maps.A[g] ? maps.A[g]->high[c] : fabric.A[g][int(c)]) * (there.volume[g] - normal.volume[g]);
+          worst = std::max(worst, std::abs(error));
+        }
+      }
+    }
+  return worst;
+}
+
+Fabric compile_mapped(const Look& look, const ColorManager& colors, FabricParts parts, float turn,
+                      float metres_per_uv, FabricMaps& maps, CompiledSide& side) {
   const std::string working = colors.working_space();
   const ToWorking to_working = [&](const Color& c, const std::string& space) { return colors.to_working(c, space); };
-  MapReader reader{look, colors, warnings};
+  MapReader reader{look, colors, metres_per_uv, side.warnings};
   Look mean = with_mean_numbers(reader, maps, turn);
   maps.constant.family = {family_values(mean.warp), family_values(mean.weft)};
   parts.narrowest = narrowest_lobes(maps);
@@ -205,26 +233,35 @@ Fabric compile_mapped(const Look& look, const ColorManager& colors, FabricParts 
   Fabric fabric = compile_fabric(mean, to_working, parts);
   maps.constant.A = fabric.A;
   maps.constant.gap = fabric.gap;
-  if (maps.any_numbers())
-    fabric.varying = std::make_shared<const VaryingThreads>(VaryingThreads{fabric.threads, maps.constant.family});
+  if (!maps.any_numbers()) return fabric;
+  fabric.varying = std::make_shared<const VaryingThreads>(VaryingThreads{fabric.threads, maps.constant.family});
+  if (reader.has("warp.color") || reader.has("weft.color"))
+    side.color_error = std::max(side.color_error, color_error(fabric, maps, normal));
   return fabric;
 }
 
 }  // namespace
 
-CompiledSide compile_side(const Look& look, const ColorManager& colors, const FabricParts& parts, float turn) {
+CompiledSide compile_side(const Look& look, const ColorManager& colors, const FabricParts& parts, float turn,
+                          float metres_per_uv) {
   CompiledSide side;
   SideMaps maps;
-  side.fabric = compile_mapped(look, colors, parts, turn, maps.own, side.warnings);
+  side.fabric = compile_mapped(look, colors, parts, turn, metres_per_uv, maps.own, side);
   if (!look.pattern_look.empty() && (look.pattern_mask > 0 || look.textures.contains("pattern.mask"))) {
     maps.pattern.emplace();
     PatternMaps& pattern = *maps.pattern;
-    pattern.fabric = compile_mapped(read_pattern(look), colors, parts, turn, pattern.maps, side.warnings);
+    pattern.fabric = compile_mapped(read_pattern(look), colors, parts, turn, metres_per_uv, pattern.maps, side);
     pattern.share = look.pattern_mask;
-    pattern.mask = MapReader{look, colors, side.warnings}.number("pattern.mask");
+    pattern.mask = MapReader{look, colors, metres_per_uv, side.warnings}.number("pattern.mask");
   }
   if (maps.own.any() || maps.pattern) side.maps = std::make_shared<const SideMaps>(std::move(maps));
   return side;
+}
+
+bool has_sized_textures(const Look& look) {
+  for (const auto& [path, texture] : look.textures)
+    if (is_sized(texture)) return true;
+  return !look.pattern_look.empty() && has_sized_textures(read_pattern(look));
 }
 
 void set_sides(Scene& scene, CompiledSide front, std::optional<CompiledSide> back) {

@@ -32,7 +32,7 @@ float near_share(float pixels) {
 
 float near_weave_pixel(const Scene& scene) {
   double spacing = 0;
-  for (const Fabric* fabric : {&scene.front, scene.back ? &*scene.back : &scene.front})
+  for (const Fabric* fabric : fabrics_of(scene))
     if (!fabric->weave.empty()) spacing = std::max({spacing, fabric->weave.warp_spacing, fabric->weave.weft_spacing});
   double stretch = 0;  // scene units per metre of cloth at most
   for (size_t i = 0; i < scene.mesh->dpdu.size(); ++i)
@@ -61,7 +61,11 @@ void place_yarn(const Scene& scene, const Footprint& pixel, ClothPoint& point) {
                                  weave.warp_spacing / std::hypot(axes.y(pixel.dx), axes.y(pixel.dy)));
   const float near = near_share(float(std::min(pixels, 1e6)));
   if (!(near > 0)) return;
-  point.yarn = yarn_at(weave, axes.x(point.surface.uv), axes.y(point.surface.uv));
+  const double x = axes.x(point.surface.uv), y = axes.y(point.surface.uv);
+  const std::array<double, 2> coverage{double(point.values.family[0].coverage),
+                                       double(point.values.family[1].coverage)};
+  // Where textures say how much the threads cover, the yarns there are as wide.
+  point.yarn = point.mapped && coverage != weave.coverage ? yarn_at(weave, coverage, x, y) : yarn_at(weave, x, y);
   point.yarn.near = near;
   point.yarn.strands = most_strands * near_share(float(std::min(pixels, 1e6) / strands_across));
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -49,6 +50,12 @@ class RayTracer {
   /// The same for many rays that need have nothing in common, up to `stream_size`: a sixth faster than one by one.
   static constexpr int stream_size = 128;
   void occluded_each(std::span<const Ray> rays, bool* occluded) const;
+
+  /// Share of light that passes where a ray meets the mesh, 0 to 1.
+  using ShareAt = std::function<float(const Hit& hit, const Ray& ray)>;
+  /// The product of the shares of all surfaces that a ray meets, in one walk through the tree; 0 below 1e-6. The
+  /// surfaces come in no order. The same bits for a ray whatever the others are.
+  void passed_each(std::span<const Ray> rays, const ShareAt& share, float* passed) const;
   std::int64_t memory_bytes() const;       ///< what Embree holds now
   std::int64_t peak_memory_bytes() const;  ///< the most that it held while building
 

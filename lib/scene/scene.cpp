@@ -21,6 +21,14 @@ const SideMaps* side_maps(const Scene& scene, bool back) {
 }
 }  // namespace
 
+std::vector<const Fabric*> fabrics_of(const Scene& scene) {
+  std::vector<const Fabric*> all{&scene.front};
+  if (scene.back) all.push_back(&*scene.back);
+  for (const auto& side : {scene.front_maps, scene.back_maps})
+    if (side && side->pattern) all.push_back(&side->pattern->fabric);
+  return all;
+}
+
 ClothPoint cloth_point(const Scene& scene, const Hit& hit, const Vec3& direction) {
   ClothPoint point;
   point.surface = surface_point(*scene.mesh, hit);
@@ -76,6 +84,19 @@ float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& dir
   const Fabric& fabric = back && scene.back ? *scene.back : scene.front;
   const SideMaps* side = side_maps(scene, back);
   return side ? gap_at(*side, fabric, surface.uv, {}) : fabric.gap;
+}
+
+void pass_gaps(const Scene& scene, std::span<const Ray> rays, float* passed) {
+  // Where all gaps are alike it does not matter what is met.
+  if (!scene.has_maps && !scene.back)
+    return scene.rays->passed_each(
+        rays, [gap = scene.front.gap](const Hit&, const Ray&) { return gap; }, passed);
+  scene.rays->passed_each(
+      rays,
+      [&](const Hit& hit, const Ray& ray) {
+        return gap_along(scene, surface_point(*scene.mesh, hit), ray.direction);
+      },
+      passed);
 }
 
 void turn_point(ClothPoint& point, const YTurn& object) {

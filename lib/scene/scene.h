@@ -51,6 +51,9 @@ struct Scene {
   float near_weave_pixel = 0;      ///< scene/near_weave.h; 0: threads never show one by one
 };
 
+/// All fabrics of a scene: front, back and those of their patterns.
+std::vector<const Fabric*> fabrics_of(const Scene& scene);
+
 /// The cloth frame at a point as seen along `direction` (towards the surface): z on the viewer's side, x the warp.
 struct ClothPoint {
   SurfacePoint surface;
@@ -77,6 +80,9 @@ void apply_maps(const Scene& scene, const Vec3& direction, const Footprint& foot
 
 /// Share of light that the gaps at a hit let pass, whichever side `direction` comes from.
 float gap_along(const Scene& scene, const SurfacePoint& surface, const Vec3& direction);
+
+/// Share of light that the gaps of all cloth along each ray let pass.
+void pass_gaps(const Scene& scene, std::span<const Ray> rays, float* passed);
 
 /// Turns frame and facing of a point as it was traced into the world; `surface` stays where the ray tracer knows it.
 void turn_point(ClothPoint& point, const YTurn& object);

@@ -87,11 +87,13 @@ void UvTexture::look_up(const Vec2& uv, const Footprint& footprint, float* value
 }
 
 UvTexture read_uv_texture(const TextureValue& value, const std::string& field, const ColorManager& colors,
-                          const PixelUse& use, PixelCounts& counts) {
+                          const PixelUse& use, float metres_per_uv, PixelCounts& counts) {
   UvTexture texture;
   texture.udim = is_udim(value.path);
   texture.channels = use.channels;
   texture.repeat = value.repeat;
+  if (is_sized(value))
+    for (size_t i = 0; i < 2; ++i) texture.repeat[i] = metres_per_uv * 100 / value.repeat_cm[i];
   Sums sums;
   const PixelCounts before = counts;
   try {

@@ -19,7 +19,7 @@ struct UvTexture {
   std::vector<Tile> tiles;
   bool udim = false;
   int channels = 1;
-  std::array<float, 2> repeat{1, 1};
+  std::array<float, 2> repeat{1, 1};                                ///< over one unit of u and of v
   std::array<float, 3> mean{0, 0, 0}, low{0, 0, 0}, high{0, 0, 0};  ///< over all pixels, by channel
 
   bool covers(const Vec2& uv) const;  ///< false where a UDIM set has no tile
@@ -42,8 +42,9 @@ struct PixelCounts {
 
 /// Reads the picture, or the tiles, of a look's texture. Colours are brought into the working space pixel by pixel,
 /// before any filtering: encoded spaces must not be averaged as they are. InputError where a file cannot be read or
-/// the space is not known, with the texture's origin and `field`.
+/// the space is not known, with the texture's origin and `field`. `metres_per_uv`: the size of the cloth, for
+/// textures that have one.
 UvTexture read_uv_texture(const TextureValue& value, const std::string& field, const ColorManager& colors,
-                          const PixelUse& use, PixelCounts& counts);
+                          const PixelUse& use, float metres_per_uv, PixelCounts& counts);
 
 }  // namespace sateen

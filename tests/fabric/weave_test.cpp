@@ -61,6 +61,60 @@ TEST(Yarns, CoverTheirSharesOfTheClothThickOrThin) {
       }
 }
 
+/// Shares of gaps, warp and weft over a repeat; `at` finds the yarn of a place.
+template <class At>
+std::array<double, 3> shares_of(const Weave& weave, const At& at) {
+  std::array<double, 3> share{0, 0, 0};
+  const int n = 40000;
+  for (int i = 0; i < n; ++i)
+    share[size_t(1 + at(std::fmod(0.5 + i * 0.7548776662466927, 1.0) * weave.picks * weave.weft_spacing,
+                        std::fmod(0.5 + i * 0.5698402909980532, 1.0) * weave.ends * weave.warp_spacing)
+                         .family)] += 1.0 / n;
+  return share;
+}
+
+TEST(Yarns, AreAsWideAsTheCoverageOfTheirPlaceAsks) {
+  for (const std::string& draft : drafts()) {
+    Look look = woven(all_looks().front(), draft);
+    look.warp.coverage = 0.35f;
+    look.weft.coverage = 0.25f;
+    const Weave weave = compile_weave(look);
+    for (const auto& [warp, weft] :
+         {std::pair(0.35, 0.25), {0.1, 0.2}, {0.6, 0.4}, {0.0, 0.5}, {0.9, 0.6}, {0.0, 0.0}}) {
+      const auto share = shares_of(weave, [&](double x, double y) {
+        const YarnPlace place = yarn_at(weave, {warp, weft}, x, y);
+        EXPECT_EQ(place.light, 1);
+        return place;
+      });
+      const double whole = std::max(1.0, warp + weft);
+      EXPECT_NEAR(share[1], warp / whole, 0.004) << draft << " " << warp << " " << weft;
+      EXPECT_NEAR(share[2], weft / whole, 0.004) << draft << " " << warp << " " << weft;
+    }
+  }
+}
+
+TEST(Yarns, OfClosedGapsCoverEverythingInTheirSharesAndGiveTheLightOfBefore) {
+  for (const std::string& draft : drafts()) {
+    Look look = woven(all_looks().front(), draft);
+    look.warp.coverage = 0.35f;
+    look.weft.coverage = 0.25f;
+    Weave weave = compile_weave(look);
+    close_gaps(weave);
+    const auto share = shares_of(weave, [&](double x, double y) {
+      const YarnPlace place = yarn_at(weave, x, y);
+      EXPECT_NEAR(double(place.light), 0.6, 1e-6);
+      return place;
+    });
+    // Where rounding leaves two strips apart nothing shows for a ten-thousandth of the cloth at most.
+    EXPECT_LT(share[0], 1e-4) << draft;
+    EXPECT_NEAR(share[1], 0.35 / 0.6, 0.004) << draft;
+    // Textures that thin the threads out close their gaps too.
+    const auto thin = shares_of(weave, [&](double x, double y) { return yarn_at(weave, {0.1, 0.2}, x, y); });
+    EXPECT_LT(thin[0], 1e-4) << draft;
+    EXPECT_NEAR(double(yarn_at(weave, {0.1, 0.2}, 0.0001, 0.0001).light), 0.3, 1e-6);
+  }
+}
+
 TEST(Profile, HasTheMeanOneForEveryHalfVectorAndIsBrightestBesideIt) {
   for (const double width : {0.3, 0.45, 1.0, 2.0})
     for (int m = -20; m <= 20; ++m) {

@@ -153,6 +153,37 @@ TEST(Batches, GiveASampleTheBitsThatItHasAlone) {
       }
 }
 
+TEST(Batches, GiveASampleOfSheerLayersTheBitsThatItHasAlone) {
+  Look look = lopsided_look();
+  look.warp.coverage = 0.35f;
+  look.weft.coverage = 0.25f;
+  // Four layers, of which the lower ones reach less far, over nothing.
+  Mesh mesh = floor_quad();
+  for (int k = 1; k < 4; ++k)
+    add_quad(mesh, Vec3(0, -0.3f * float(k), 0), Vec3(3 - float(k) * 0.8f, 0, 0), Vec3(0, 0, -3));
+  Scene scene = make_scene(std::move(mesh), fabric_of(look), Sun{64, 32, 3, 0, 50}.map());
+  scene.camera = distant_camera(Vec3(0), Vec3(0.2f, 1, 0.7f), 4, 7, 5);
+  scene.backdrop = Backdrop::plain;
+  scene.backdrop_color = Color(0.3f, 0.2f, 0.1f);
+  const auto scratch = std::make_unique<PathScratch>();
+  std::vector<SampleId> ids;
+  for (int k = 0; k < batch_size; ++k) ids.push_back({k % 7, k / 7 % 5, k % 3, std::uint32_t(k)});
+  for (const LightSettings& light : {LightSettings{Strategy::mis_compensated, 8, 0}, {Strategy::mis_talk, 8, 3}}) {
+    CameraSample together[batch_size];
+    trace_samples(scene, light, 9, ids, *scratch, together);
+    int through = 0;
+    for (size_t k = 0; k < ids.size(); ++k) {
+      const CameraSample alone = trace_sample(scene, light, 9, ids[k], *scratch);
+      ASSERT_EQ(together[k].total(), alone.total());
+      ASSERT_EQ(together[k].through_gaps, alone.through_gaps);
+      ASSERT_EQ(together[k].backdrop, alone.backdrop);
+      ASSERT_EQ(together[k].alpha, alone.alpha);
+      through += max_component(alone.through_gaps) > 0;
+    }
+    EXPECT_GT(through, 5);
+  }
+}
+
 TEST(Sun, StraightAboveGivesFTimesItsIrradiance) {
   const Vec3 view = direction(40, 25);
   const std::vector<NamedSettings> all = all_settings();

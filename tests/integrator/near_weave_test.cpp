@@ -4,6 +4,7 @@
 
 #include "integrator/made_scenes.h"
 #include "integrator/path.h"
+#include "scene/mapped_looks.h"
 
 // Cloth seen from so near that its threads show: a flat swatch in front of a camera that comes nearer.
 
@@ -14,18 +15,14 @@ using namespace sateen;
 
 constexpr int side = 48;  // pixels
 
-/// A square of `repeats` repeats of the look's weave fills the picture, seen at an angle of 25 degrees.
-Scene swatch_of(const std::string& name, const std::string& draft, double repeats) {
-  Look look = shipped_look(name);
-  look.weave.draft = {draft};
-  look.weave.warp_per_cm = look.weave.weft_per_cm = 20;
-  look.weave.irregularity = look.weave.slubs = 0;
-  look.back.clear();
+/// A square of `repeats` repeats of the weave fills the picture. One UV unit is a metre.
+Scene swatch_of(CompiledSide cloth, double repeats) {
   Mesh mesh = floor_quad(10);
   for (size_t i = 0; i < mesh.uvs.size(); ++i) mesh.uvs[i] *= 10;
   for (Vec3& v : mesh.dpdu) v *= 0.1f;
   for (Vec3& v : mesh.dpdv) v *= 0.1f;
-  Scene scene = make_scene(std::move(mesh), fabric_of(look), constant_map(1));
+  Scene scene = make_scene(std::move(mesh), Fabric(), constant_map(1));
+  set_sides(scene, std::move(cloth), std::nullopt);
   const float extent = float(repeats * scene.front.weave.ends * scene.front.weave.warp_spacing);
   scene.camera = distant_camera(Vec3(0), Vec3(0, 1, 0), extent, side, side);
   // A distant camera's directions lose their digits in so small a picture: a metre is far enough.
@@ -33,6 +30,17 @@ Scene swatch_of(const std::string& name, const std::string& draft, double repeat
   scene.camera.tan_x = scene.camera.tan_y = extent / 2;
   scene.near_weave_pixel = near_weave_pixel(scene);
   return scene;
+}
+
+Scene swatch_of(const std::string& name, const std::string& draft, double repeats) {
+  Look look = shipped_look(name);
+  look.weave.draft = {draft};
+  look.weave.warp_per_cm = look.weave.weft_per_cm = 20;
+  look.weave.irregularity = look.weave.slubs = 0;
+  look.back.clear();
+  CompiledSide cloth;
+  cloth.fabric = fabric_of(look);
+  return swatch_of(std::move(cloth), repeats);
 }
 
 struct Seen {
@@ -116,6 +124,44 @@ TEST(NearWeave, ShowsPartsThatDifferWhereYarnsAreWide) {
   double squares = 0;
   for (const double p : seen.pixels) squares += (p / seen.mean - 1) * (p / seen.mean - 1);
   EXPECT_GT(std::sqrt(squares / (side * side)), 0.1);
+}
+
+TEST(NearWeave, KeepsTheBrightnessAndTheGapsThatATextureOfCoverageAsksFor) {
+  const MappedLooks made;
+  // At the swatch's middle, where the clamped texture's right side goes on, 0.2; its mean is 0.5.
+  made.texture("halves.exr", 64, 1, [](int x, int) { return Color(x < 32 ? 0.8f : 0.2f); });
+  for (const char* draft : {"plain", "satin 5/2"}) {
+    CompiledSide cloth = made.compiled(fmt::format(
+        R"({{"warp": {{"coverage": {{"texture": "halves.exr", "wrap": "clamp", "scale": 0.8}}, "A": [0.8, 0.6, 0.1]}},
+             "weft": {{"coverage": 0.3, "A": [0.1, 0.3, 0.6]}},
+             "weave": {{"draft": "{}", "warp_per_cm": 20, "weft_per_cm": 20}}}})",
+        draft));
+    Scene scene = swatch_of(std::move(cloth), 4);
+    const Seen near = look_at(scene, 64);
+    scene.near_weave_pixel = 0;
+    const Seen far = look_at(scene, 64);
+    // The bars of the swatches above.
+    EXPECT_NEAR(near.mean / far.mean, 1, 0.012) << draft;
+    EXPECT_NEAR(far.alpha, 0.16 + 0.3, 1e-5) << draft;
+    EXPECT_NEAR(near.alpha, far.alpha, 0.004) << draft;
+    EXPECT_NE(near.pixels, far.pixels);
+  }
+}
+
+TEST(NearWeave, OfClosedGapsIsAsBrightAsTheFarPictureAndHasNoHoles) {
+  Scene scene = swatch_of("linen_plain", "plain", 4);
+  ASSERT_GT(scene.front.gap, 0.05f);
+  // As --effects -gaps leaves a scene.
+  scene.front.gap = 0;
+  scene.has_gaps = false;
+  close_gaps(scene.front.weave);
+  const Seen near = look_at(scene, 64);
+  scene.near_weave_pixel = 0;
+  const Seen far = look_at(scene, 64);
+  EXPECT_NEAR(near.alpha, 1, 1e-9);
+  EXPECT_NEAR(near.mean / far.mean, 1, 0.012);
+  // No hole is left: a pixel in one would be black.
+  EXPECT_GT(*std::min_element(near.pixels.begin(), near.pixels.end()), 0.15 * near.mean);
 }
 
 TEST(NearWeave, IsOffWhereTheWeaveIsTakenOutOfTheFabric) {

@@ -17,9 +17,13 @@ TEST(TextureValue, IsReadAndWrittenBackTheSame) {
   const std::string text =
       R"({"color": {"texture": "maps/a.png", "space": "srgb_texture", "scale": 0.8, "offset": 0.1, "repeat": [4, 2.5]},
           "warp": {"k_d": {"texture": "maps/a.png", "wrap": "mirror"}},
+          "weft": {"k_d": {"texture": "maps/a.png", "repeat_cm": [12, 7.5]}},
           "warp_angle_deg": {"texture": "maps/a.png", "scale": 360}})";
   const Look look = parse_look(text, folder.file("silk.json"));
-  ASSERT_EQ(look.textures.size(), 4u);
+  ASSERT_EQ(look.textures.size(), 5u);
+  EXPECT_EQ(look.textures.at("weft.k_d").repeat_cm[1], 7.5f);
+  EXPECT_FALSE(is_sized(look.textures.at("warp.k_d")));
+  EXPECT_EQ(field_text(look, *find_field("weft.k_d")), R"({"texture": "maps/a.png", "repeat_cm": [12, 7.5]})");
   const TextureValue& color = look.textures.at("weft.color");
   EXPECT_EQ(color.path, folder.file("maps/a.png"));
   EXPECT_EQ(color.space, "srgb_texture");
@@ -75,6 +79,7 @@ TEST(TextureValue, CountsInTheHashByWhatTheFileHolds) {
   EXPECT_EQ(hash("a.png"), hash("b.png"));
   EXPECT_NE(hash("a.png"), hash("c.png"));
   EXPECT_NE(hash("a.png"), hash("a.png", ", \"scale\": 0.5"));
+  EXPECT_NE(hash("a.png"), hash("a.png", ", \"repeat_cm\": [8, 8]"));
   EXPECT_NE(hash("a.png"), look_hash(parse_look("{}", folder.file("silk.json"))));
 }
 
@@ -97,6 +102,13 @@ TEST(TextureValue, SaysWhatIsWrongAndWhere) {
       {R"({"warp": {"k_d": {"texture": "print.png", "repeat": [0, 1]}}})", "expected a number from 0.001 to 10000"},
       {R"({"warp": {"k_d": {"texture": "print.png", "repeat": 3}}})", "expected [along u, along v]"},
       {R"({"warp": {"k_d": {"texture": "u.<UDIM>.png", "repeat": [2, 2]}}})", "expected one of them"},
+      {R"({"warp": {"k_d": {"texture": "u.<UDIM>.png", "repeat_cm": [2, 2]}}})", "expected one of them"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "repeat": [1, 1], "repeat_cm": [8, 8]}}})",
+       "repeat and repeat_cm, expected one of them"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "repeat_cm": [0, 8]}}})",
+       "expected a number from 0.001 to 100000"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "repeat_cm": 8}}})", "centimetres along u"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "repaet_cm": [8, 8]}}})", "did you mean repeat_cm?"},
       {R"({"pattern": {"mask": 0.5}})", "no look to weave in"},
       {R"({"pattern": {"mask": 0.5, "look": "no_such_look"}})", "there is no such look"},
       {R"({"mask": 0.5})", "it belongs inside \"pattern\""}};

@@ -7,6 +7,8 @@
 #include "film/develop.h"
 #include "render/albedo_map.h"
 #include "render/pictures.h"
+#include "scene/mapped_looks.h"
+#include "scene/near_weave.h"
 #include "statistics/z_test.h"
 
 namespace sateen_test {
@@ -200,21 +202,106 @@ TEST(RenderedLayers, GeometryIsThatOfTheCloth) {
 
 TEST(AlbedoMaps, FollowTheAlbedoOfEveryView) {
   const AlbedoMaps maps = map_albedos(satin_scene(), 2);
+  const auto seen = [&](const Vec3& wo) {
+    CameraSample sample;
+    sample.fabric = &satin_scene().front;
+    sample.A = satin_scene().front.A;
+    sample.wo = wo;
+    return sample_albedo(maps, sample);
+  };
   for (int row = 0; row < AlbedoMap::cosines; ++row)
     for (int column = 0; column < AlbedoMap::azimuths; column += 5) {
       const float z = (float(row) + 0.5f) / AlbedoMap::cosines, r = std::sqrt(1 - z * z);
       const float angle = 2 * pi * float(column) / AlbedoMap::azimuths;
       const Vec3 wo(r * std::cos(angle), r * std::sin(angle), z);
-      const Color expected = albedo_color(satin_scene().front, wo), found = look_up(maps.front, wo);
+      const Color expected = albedo_color(satin_scene().front, wo), found = seen(wo);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 1e-2f * expected[c]);
     }
   // Between the nodes a tenth is near enough for a layer; across the seam of the azimuth too.
   for (const float angle : {0.1f, 1.3f, 3.13f, -3.13f, -0.05f}) {
     const Vec3 wo(0.6f * std::cos(angle), 0.6f * std::sin(angle), 0.8f);
-    const Color expected = albedo_color(satin_scene().front, wo), found = look_up(maps.front, wo);
+    const Color expected = albedo_color(satin_scene().front, wo), found = seen(wo);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 0.1f * expected[c]) << angle;
   }
-  EXPECT_EQ(look_up(AlbedoMap(), Vec3(0, 0, 1)), Color(0));
+  EXPECT_EQ(sample_albedo({}, CameraSample()), Color(0));
+}
+
+/// The swatch, one UV unit a metre, of a look with textures.
+Scene flat_scene(CompiledSide side) {
+  SceneSettings settings = scene_settings("ivory_duchess_satin", 32, 32);
+  settings.mesh = "swatch";
+  settings.camera.elevation_deg = 60;
+  Scene scene = scene_of(settings);
+  set_sides(scene, std::move(side), std::nullopt);
+  return scene;
+}
+
+/// Samples of the whole picture that met cloth.
+std::vector<CameraSample> seen_samples(const Scene& scene) {
+  const auto scratch = std::make_unique<PathScratch>();
+  std::vector<CameraSample> seen;
+  for (int i = 0; i < 32 * 32 * 4; ++i) {
+    const CameraSample s = trace_sample(scene, {Strategy::table, 1, 0}, 3, {i / 4 % 32, i / 128, i % 4, 0}, *scratch);
+    if (s.hit) seen.push_back(s);
+  }
+  return seen;
+}
+
+TEST(AlbedoLayer, ShowsTheColourAndTheCoverageOfThePoint) {
+  const MappedLooks made;
+  made.texture("halves.exr", 64, 64,
+               [](int x, int) { return x < 32 ? Color(0.1f, 0.5f, 0.9f) : Color(0.7f, 0.3f, 0.2f); });
+  const char* const look = R"({{"color_space": "lin_rec709",
+    "warp": {{"A": {}, "coverage": {}, "gamma_s_deg": 20}}, "weft": {{"A": {}, "coverage": 0.4, "gamma_s_deg": 25}}}})";
+  const std::string map = R"({"texture": "halves.exr", "space": "lin_rec709", "repeat_cm": [10, 10]})",
+                    cover = R"({"texture": "halves.exr", "scale": 0.5, "repeat_cm": [10, 10]})";
+  const Scene scene = flat_scene(made.compiled(fmt::format(fmt::runtime(look), map, cover, map)));
+  const AlbedoMaps maps = map_albedos(scene, 2);
+  const Fabric expected[2] = {
+      made.compiled(fmt::format(fmt::runtime(look), "[0.1, 0.5, 0.9]", "0.05", "[0.1, 0.5, 0.9]"), false).fabric,
+      made.compiled(fmt::format(fmt::runtime(look), "[0.7, 0.3, 0.2]", "0.35", "[0.7, 0.3, 0.2]"), false).fabric};
+  int compared[2] = {0, 0};
+  const std::vector<CameraSample> seen = seen_samples(scene);
+  for (size_t i = 0; i < seen.size(); i += 4) {
+    const CameraSample& s = seen[i];
+    if (s.wo.z < 0.3f) continue;  // where the table's nodes are too far apart for the bar below
+    const float u = s.uv.x * 10 - std::floor(s.uv.x * 10);
+    if (std::abs(u - 0.25f) > 0.07f && std::abs(u - 0.75f) > 0.07f) continue;  // what a pixel filters of the edges
+    const size_t half = u < 0.5f ? 0 : 1;
+    const Color here = sample_albedo(maps, s), there = albedo_color(expected[half], s.wo, 72);
+    // The nodes of the table are a tenth apart, and so is Q of the thinner threads from their mean's.
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(here[c], there[c], 0.12f * there[c] + 0.01f);
+    ++compared[half];
+  }
+  EXPECT_GT(compared[0], 10);
+  EXPECT_GT(compared[1], 10);
+}
+
+TEST(AlbedoLayer, ShowsTheYarnsFromNearWithTheirMeanFromAfar) {
+  const MappedLooks made;
+  Scene scene = flat_scene(made.compiled(R"({"color_space": "lin_rec709",
+    "warp": {"A": [0.9, 0.3, 0.1], "coverage": 0.4}, "weft": {"A": [0.1, 0.2, 0.8], "coverage": 0.4},
+    "weave": {"draft": "plain", "warp_per_cm": 8, "weft_per_cm": 8}})"));
+  const AlbedoMaps maps = map_albedos(scene, 2);
+  const auto look = [&](float near) {
+    scene.near_weave_pixel = near;
+    Color mean(0);
+    float reddest = 0;
+    const std::vector<CameraSample> seen = seen_samples(scene);
+    for (const CameraSample& s : seen) {
+      const Color a = sample_albedo(maps, s);
+      mean += a / float(seen.size());
+      reddest = std::max(reddest, a.x / std::max(a.z, 1e-3f));
+    }
+    return std::pair(mean, reddest);
+  };
+  scene.camera.tan_x *= 0.03f;  // seven yarns across the picture
+  scene.camera.tan_y *= 0.03f;
+  const auto [far, far_red] = look(0);
+  const auto [near, near_red] = look(near_weave_pixel(scene));
+  // Seven yarns each way, the outer ones cut off.
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(near[c] / far[c], 1, 0.1f);
+  EXPECT_GT(near_red, 1.7f * far_red) << "the warp alone";
 }
 
 }  // namespace

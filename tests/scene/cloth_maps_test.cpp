@@ -45,6 +45,51 @@ TEST(ClothMaps, GiveEveryFieldItsPixels) {
   EXPECT_TRUE(side.fabric.varying);
 }
 
+TEST(ClothMaps, HaveASizeOnTheClothWhereTheyAreGivenOne) {
+  const MappedLooks made;
+  made.texture("halves.exr", 64, 64, [](int x, int) { return Color(x < 32 ? 0.25f : 0.75f); });
+  const auto k_d_at = [&](const std::string& members, float metres_per_uv, float metres) {
+    const std::string text =
+        R"({"warp": {"k_d": {"texture": "halves.exr")" + members + R"(}}, "weft": {"coverage": 0.5}})";
+    const CompiledSide side = made.compiled(text, false, metres_per_uv);
+    return values_at(side.maps->own, Vec2(metres / metres_per_uv, 0.3f), {}).family[0].k_d;
+  };
+  // 8 cm: the right half of a repeat from 4 to 8, 12 to 16 ... whatever a UV unit is.
+  for (const float metres_per_uv : {0.02f, 0.5f, 1.0f, 3.0f})
+    for (const auto& [cm, k_d] :
+         {std::pair(2.0f, 0.25f), {6.0f, 0.75f}, {10.0f, 0.25f}, {14.0f, 0.75f}, {22.0f, 0.75f}})
+      EXPECT_FLOAT_EQ(k_d_at(R"(, "repeat_cm": [8, 5])", metres_per_uv, cm / 100), k_d) << metres_per_uv << " " << cm;
+  EXPECT_FLOAT_EQ(k_d_at(R"(, "repeat": [0.5, 1])", 3, 4.5f), 0.75f) << "by UV units, the size does not count";
+  EXPECT_TRUE(has_sized_textures(made.look(R"({"warp": {"k_d": {"texture": "halves.exr", "repeat_cm": [8, 5]}}})")));
+  EXPECT_FALSE(has_sized_textures(made.look(R"({"warp": {"k_d": {"texture": "halves.exr"}}})")));
+}
+
+TEST(ClothMaps, TellHowFarColourStraysWhereNumbersVaryToo) {
+  const MappedLooks made;
+  made.texture("halves.exr", 64, 64, [](int x, int) { return Color(x < 32 ? 0.1f : 0.4f); });
+  const std::string color = R"("color": {"texture": "halves.exr", "space": "lin_rec709"})";
+  EXPECT_EQ(made.compiled("{" + color + "}", false).color_error, 0);
+  EXPECT_EQ(made.compiled(R"({"warp": {"coverage": {"texture": "halves.exr"}}, "weft": {"coverage": 0.5}})", false)
+                .color_error,
+            0);
+  const CompiledSide both = made.compiled(
+      "{" + color + R"(, "warp": {"coverage": {"texture": "halves.exr"}}, "weft": {"coverage": 0.5}})", false);
+  // Compiled as a look of its own, at the thinnest and at the thickest place.
+  float worst = 0;
+  for (const float coverage : {0.1f, 0.4f}) {
+    const Look there =
+        made.look(fmt::format(R"({{"warp": {{"coverage": {}}}, "weft": {{"coverage": 0.5}}}})", coverage));
+    const Albedo parts = albedo(compile_fabric(there, same_space, {false, 1}).threads, Vec3(0, 0, 1));
+    const Look mean = made.look(R"({"warp": {"coverage": 0.25}, "weft": {"coverage": 0.5}})");
+    const Albedo solved = albedo(compile_fabric(mean, same_space, {false, 1}).threads, Vec3(0, 0, 1));
+    const float A = both.maps->own.A[0]->high[0];
+    worst = std::max(worst, std::abs(parts.surface - solved.surface +
+                                     A * (parts.volume[0] + parts.volume[1] - solved.volume[0] - solved.volume[1])));
+  }
+  EXPECT_GT(both.color_error, 0.02f);
+  EXPECT_NEAR(both.color_error, worst, 0.05f * worst);
+}
+
 TEST(ClothMaps, ConvertEncodedColoursBeforeTheyAreFiltered) {
   const MappedLooks made;
   Image checks(16, 16, 3);

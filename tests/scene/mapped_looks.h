@@ -35,11 +35,11 @@ struct MappedLooks {
     return sateen::parse_look(text, path);
   }
 
-  sateen::CompiledSide compiled(const std::string& text, bool table = true) const {
+  sateen::CompiledSide compiled(const std::string& text, bool table = true, float metres_per_uv = 1) const {
     sateen::FabricParts parts;
     parts.table = table;
     parts.threads = 2;
-    return sateen::compile_side(look(text), colors, parts);
+    return sateen::compile_side(look(text), colors, parts, 0, metres_per_uv);
   }
 
   /// The InputError's text, or none.

@@ -120,6 +120,62 @@ TEST(RayTracer, WhatBlocksAShadowRayDoesNotDependOnTheOtherRaysOfItsStream) {
   EXPECT_LT(blocked, rays_traced * 9 / 10);
 }
 
+TEST(RayTracer, WhatPassesIsTheProductOverAllSurfacesThatARayMeetsOneAfterAnother) {
+  const Mesh mesh = round_mesh(60, 1, Vec3d(0.3, -0.2, 0.1));
+  const RayTracer tracer(mesh);
+  const auto share = [](const Hit& hit, const Ray&) { return 0.2f + 0.7f * hit.u; };
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> anywhere(-1, 1);
+  int met = 0;
+  for (int stream = 0; stream < 200; ++stream) {
+    std::vector<Ray> rays(size_t(1 + stream % RayTracer::stream_size));
+    for (Ray& ray : rays) {
+      ray.origin = Vec3(anywhere(random), anywhere(random), anywhere(random)) * 2.0f;
+      ray.direction = Vec3(anywhere(random), anywhere(random), anywhere(random));
+    }
+    if (stream % 7 == 0) rays[0].origin.x = std::numeric_limits<float>::quiet_NaN();
+    std::vector<float> together(rays.size());
+    tracer.passed_each(rays, share, together.data());
+    for (size_t k = 0; k < rays.size(); ++k) {
+      float alone;
+      tracer.passed_each({&rays[k], 1}, share, &alone);
+      ASSERT_EQ(alone, together[k]);
+      float expected = 1;
+      Ray ray = rays[k];
+      while (const std::optional<Hit> hit = tracer.closest_hit(ray)) {
+        expected *= share(*hit, ray);
+        ray.origin = offset_origin(surface_point(mesh, *hit), ray.direction);
+        ++met;
+      }
+      // The last bits of a place on a quad depend on where the ray began.
+      ASSERT_NEAR(together[k], expected, 2e-4f);
+    }
+  }
+  EXPECT_GT(met, 2000);
+}
+
+TEST(RayTracer, NothingPassesAnOpaqueSurfaceAndLessThanAMillionthIsNothing) {
+  std::vector<Vec3> corners;
+  std::vector<std::array<std::uint32_t, 4>> quads;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    for (const auto& [x, y] : {std::pair(-1.0f, -1.0f), {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}})
+      corners.push_back({x, y, float(k)});
+    quads.push_back({4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3});
+  }
+  const Mesh mesh = mesh_of(corners, quads);
+  const RayTracer tracer(mesh);
+  const Ray ray{{0.2f, 0.3f, -1}, {0, 0, 1}};
+  const auto passed = [&](const RayTracer::ShareAt& share) {
+    float result;
+    tracer.passed_each({&ray, 1}, share, &result);
+    return result;
+  };
+  EXPECT_EQ(passed([](const Hit&, const Ray&) { return 0.5f; }), 0.0625f);
+  EXPECT_EQ(passed([](const Hit& hit, const Ray&) { return hit.quad == 2 ? 0.0f : 1.0f; }), 0);
+  EXPECT_EQ(passed([](const Hit&, const Ray&) { return 1.0f; }), 1);
+  EXPECT_EQ(passed([](const Hit&, const Ray&) { return 0.03f; }), 0) << "8.1e-7";
+}
+
 TEST(RayTracer, TheCornersOfAQuadHaveTheDocumentedCoordinates) {
   const Mesh mesh = mesh_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
   const RayTracer tracer(mesh);
