@@ -32,8 +32,9 @@ TEST(PlainExr, HasThePixelsAndTheInfoOfTheModule) {
     EXPECT_EQ(plain_info.pixel_type, info.pixel_type);
     EXPECT_EQ(plain_info.color_space, info.color_space);
     ASSERT_EQ(plain_info.chromaticities.has_value(), info.chromaticities.has_value()) << name;
-    if (info.chromaticities)
+    if (info.chromaticities) {
       EXPECT_EQ(std::memcmp(&*plain_info.chromaticities, &*info.chromaticities, sizeof *info.chromaticities), 0);
+    }
   }
 }
 
