@@ -171,6 +171,7 @@ void follow_bounces(const Scene& scene, const LightSettings& settings, std::uint
                     std::span<const PathStart> starts, PathScratch& scratch, BounceLight* light) {
   const FabricSampler sampler = strategy_sampler(settings.strategy);
   std::array<Path, batch_size> paths;
+  const std::int64_t shadow_before = scratch.counts.shadow, lit_before = scratch.counts.lit;
   size_t alive = starts.size();
   for (size_t k = 0; k < alive; ++k) {
     paths[k].vertex = starts[k].vertex;
@@ -192,6 +193,8 @@ void follow_bounces(const Scene& scene, const LightSettings& settings, std::uint
     u.met.count = int(alive);
     light_vertices(scene, settings, {paths.data(), alive}, u.met, bounce, scratch, light);
   }
+  scratch.counts.shadow_after += scratch.counts.shadow - shadow_before;
+  scratch.counts.lit_after += scratch.counts.lit - lit_before;
 }
 
 }  // namespace sateen

@@ -71,6 +71,7 @@ void direct_light(const Scene& scene, std::span<const ClothPoint> points, const 
   std::array<LightRays, batch_size> rays;
   choose_light_rays(scene, points, settings, samples, scratch.samplers, rays);
   Seen seen;
+  scratch.counts.lit += std::int64_t(points.size());
   trace_shadows(scene, points, rays, scratch.counts, seen);
   for (size_t k = 0; k < points.size(); ++k) {
     light[k] = {};

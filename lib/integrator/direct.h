@@ -19,12 +19,17 @@ struct LobeLight {
 struct RayCounts {
   std::vector<Ray>* log = nullptr;  ///< where given, every shadow ray is kept here (the benchmark traces them bare)
   std::int64_t camera = 0, shadow = 0, bounce = 0;
+  std::int64_t lit = 0;                          ///< points of cloth whose direct light was estimated
+  std::int64_t shadow_after = 0, lit_after = 0;  ///< how many of them belong to points that bounces met
   std::int64_t non_finite = 0;  ///< estimates that were not finite and were dropped: a fault, reported
 
   void add(const RayCounts& more) {
     camera += more.camera;
     shadow += more.shadow;
     bounce += more.bounce;
+    lit += more.lit;
+    shadow_after += more.shadow_after;
+    lit_after += more.lit_after;
     non_finite += more.non_finite;
   }
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/compare.h"
+#include "render/ray_time.h"
 
 namespace sateen {
 
@@ -16,44 +17,17 @@ constexpr double better_by = 0.9;
 constexpr int first_look = 16;
 constexpr double hopeless = 1.2;
 
-// Costs [ns] of a camera ray, a hit, a hit's proposals and a shadow ray with its share of evaluations.
-struct Cost {
-  double camera = 60, hit = 270, shadow = 390, proposals = 0;
-};
-Cost cost_of(Strategy strategy, int candidates) {
-  Cost cost;
-  switch (strategy) {
-    case Strategy::table:
-      cost.proposals = 90;
-      break;
-    case Strategy::environment:
-      cost.proposals = 30;
-      cost.shadow = 320;  // towards the same few lights: their rays run together
-      break;
-    case Strategy::resampled:
-      cost.proposals = 110 + 290 * candidates;
-      break;
-    default:
-      cost.proposals = 220;
-      break;
-  }
-  return cost;
-}
-
 /// One strategy's picture of the grid, direct light alone.
 struct Attempt {
   LightSettings light;
   GridPicture picture = {};
 
   StrategyTrial trial() const {
-    const Cost cost = cost_of(light.strategy, light.candidates);
     StrategyTrial t;
     t.strategy = light.strategy;
     t.samples = picture.grid.samples;
     t.squared_error = relative_variance(picture);
-    t.cost = cost.camera + (double(picture.work.hits) * (cost.hit + cost.proposals) +
-                            double(picture.work.rays.shadow) * cost.shadow) /
-                               (double(picture.grid.pixels()) * picture.grid.samples);
+    t.cost = 1e9 * direct_time(picture.work.rays, light) / (double(picture.grid.pixels()) * picture.grid.samples);
     return t;
   }
 };

@@ -1,11 +1,13 @@
 #include "render/plan_pilot.h"
 
-#include <cmath>
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "render/effects.h"
 #include "render/loss.h"
 #include "render/pixel_grid.h"
+#include "render/ray_time.h"
 
 namespace sateen {
 
@@ -14,15 +16,13 @@ namespace {
 constexpr int pilot_samples = 16;
 constexpr float least_share = 1.0f / 16;  // fewer leave speckles in a picture of few samples
 
-// Costs [ns] of a camera ray, of a hit beside its shadow rays, of a shadow ray with its share of evaluations, of a
-// ray that follows a bounce, and of a shadow ray where it ends, which runs alone. Measured on drapes and garments.
-constexpr double camera_cost = 60, hit_cost = 490, shadow_cost = 390, bounce_cost = 700, lone_shadow_cost = 900;
-
 /// One picture of the grid for each part that is told apart.
 struct Parts {
   std::vector<PixelLoss> weft, surface, volume, back, through_gaps, backdrop;
   std::array<std::vector<PixelLoss>, tracked_bounces> after;
-  std::vector<double> direct_noise, indirect_square;  ///< what a pixel adds to E^2 at the pilot's samples
+  // What a pixel adds to E^2 at the pilot's samples: by direct light, by bounces that every sample follows, and by
+  // their squares and squared mean alone.
+  std::vector<double> direct_noise, indirect_noise, indirect_square, indirect_mean;
 };
 
 /// Of the mean of a pixel's samples, relative as in E.
@@ -51,8 +51,8 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bou
        {&parts.weft, &parts.surface, &parts.volume, &parts.back, &parts.through_gaps, &parts.backdrop})
     picture->resize(size_t(grid.pixels()));
   for (auto& picture : parts.after) picture.resize(size_t(grid.pixels()));
-  parts.direct_noise.resize(size_t(grid.pixels()));
-  parts.indirect_square.resize(size_t(grid.pixels()));
+  for (auto* numbers : {&parts.direct_noise, &parts.indirect_noise, &parts.indirect_square, &parts.indirect_mean})
+    numbers->resize(size_t(grid.pixels()));
 
   const GridWork work =
       trace_grid(scene, light, seed, grid, threads, [&](int pixel, std::span<const CameraSample> samples) {
@@ -74,16 +74,23 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bou
             add(parts.after[size_t(b)], pixel, r, left);
           }
         }
-        FilmPixel direct;
-        Vec3d squares(0);
+        FilmPixel direct, bounced;
+        Vec3d squares(0), mean(0);
+        const auto count = double(samples.size());
         for (size_t k = 0; k < samples.size(); ++k) {
           const Vec3d indirect(samples[k].indirect.total());
           direct.beauty[k % replicates] += Vec3d(samples[k].total()) - indirect;
+          bounced.beauty[k % replicates] += indirect;
           ++direct.samples;
-          squares += indirect * indirect / double(samples.size() * samples.size());
+          ++bounced.samples;
+          squares += indirect * indirect / (count * count);
+          mean += indirect / count;
         }
-        parts.direct_noise[size_t(pixel)] = relative_square(Vec3d(pixel_variance(direct)), value);
-        parts.indirect_square[size_t(pixel)] = relative_square(squares, value);
+        const auto pixel_number = size_t(pixel);
+        parts.direct_noise[pixel_number] = relative_square(Vec3d(pixel_variance(direct)), value);
+        parts.indirect_noise[pixel_number] = relative_square(Vec3d(pixel_variance(bounced)), value);
+        parts.indirect_square[pixel_number] = relative_square(squares, value);
+        parts.indirect_mean[pixel_number] = relative_square(mean * mean / count, value);
         for (auto* picture :
              {&parts.weft, &parts.surface, &parts.volume, &parts.back, &parts.through_gaps, &parts.backdrop})
           (*picture)[size_t(pixel)].value = value;
@@ -101,22 +108,22 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bou
   pilot.indirect = light_share(parts.after[0]);
   for (size_t b = 0; b < parts.after.size(); ++b) pilot.lost_after[b] = picture_loss(parts.after[b]);
 
-  LightSettings direct = light;
-  direct.bounces = 0;
-  const RayCounts alone = trace_grid(scene, direct, seed, grid, threads, [](int, auto) {}).rays;
-  pilot.bounce_cost =
-      (double(work.rays.bounce) * bounce_cost + double(work.rays.shadow - alone.shadow) * lone_shadow_cost) /
-      (double(alone.camera) * camera_cost + double(work.hits) * hit_cost + double(alone.shadow) * shadow_cost);
-  // Error squared times time, (direct + indirect / share) (1 + cost share), is least at the root of this. The squares
-  // stand for the variance of indirect light: a share of the samples leaves little of the sequences' evenness.
-  double noise = 0, square = 0;
-  for (size_t i = 0; i < parts.direct_noise.size(); ++i) {
-    noise += parts.direct_noise[i];
-    square += parts.indirect_square[i];
+  const double direct = direct_time(work.rays, light), bounced = bounce_time(work.rays, light);
+  pilot.bounce_cost = direct > 0 ? bounced / direct : 0;
+  const auto sum = [](const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  };
+  const double noise = sum(parts.direct_noise), whole = sum(parts.indirect_noise);
+  const double square = sum(parts.indirect_square), mean = sum(parts.indirect_mean);
+  double least = 0;
+  for (float share = 1; share >= least_share; share /= 2) {
+    // A share of the samples keeps nothing of the sequences' evenness.
+    const double indirect = share < 1 ? std::max(square / double(share) - mean, whole) : whole;
+    const double price = (noise + indirect) * (direct + bounced * double(share));
+    if (share < 1 && price >= least) continue;
+    least = price;
+    pilot.bounce_share = share;
   }
-  const double best = noise * pilot.bounce_cost > 0 ? std::sqrt(square / (noise * pilot.bounce_cost)) : 1;
-  pilot.bounce_share = least_share;
-  while (pilot.bounce_share < 1 && double(pilot.bounce_share) * std::sqrt(2.0) < best) pilot.bounce_share *= 2;
   return pilot;
 }
 
