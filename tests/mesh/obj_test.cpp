@@ -112,8 +112,11 @@ TEST(Obj, RefusesFacesOfFewerThanThreeCorners) {
 }
 
 TEST(Obj, RefusesAFileWithoutFaces) {
-  EXPECT_EQ(error_of(""), "error: a.obj: holds no face, expected at least one");
-  EXPECT_EQ(error_of(square), "error: a.obj: holds no face, expected at least one");
+  const std::string none =
+      "error: a.obj: holds no face, expected at least one\n"
+      "  help: meshes are OBJ text with lines such as f 1 2 3: export it as one";
+  EXPECT_EQ(error_of(""), none);
+  EXPECT_EQ(error_of(square), none);
   EXPECT_EQ(error_of(square + "f 1 1 2\n"),
             "error: a.obj: no face is left after dropping those that use a vertex twice");
 }

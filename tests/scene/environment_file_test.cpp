@@ -137,7 +137,8 @@ TEST(InspectEnvironment, MeasuresRangeAndRegions) {
             0);
 }
 
-// The maps of other makers. Counts are of what the files hold, found once by reading them.
+// The maps of other makers. Counts are of what the files hold, found once by reading them; sunrise has 44 negative
+// values below the smallest normal half, which readers that flush denormals lose.
 TEST(ReadEnvironment, ReadsTheMapsOfOthersWithTheirRepairsCounted) {
   const fs::path shared = fs::path(SATEEN_SOURCE_DIR) / "../shared/hdri";
   if (!fs::exists(shared)) GTEST_SKIP() << "no " << shared;
@@ -148,7 +149,7 @@ TEST(ReadEnvironment, ReadsTheMapsOfOthersWithTheirRepairsCounted) {
   };
   const Known all[] = {{"apartment", 11, 0, 19.5f},  {"city", 299, 0, 33071}, {"forest", 784, 0, 1761},
                        {"interior", 5053, 0, 30673}, {"sky", 11, 0, 28692},   {"studio", 3, 0, 329.4f},
-                       {"sunrise", 151, 14, 3562}};
+                       {"sunrise", 195, 14, 3562}};
   const ColorManager colors("built-in");
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
