@@ -1,129 +1,116 @@
 #pragma once
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "fabric/threads.h"
-#include "math/lane_functions.h"
+#include "fabric/panel_sight.h"
 
 // The kernel of threads.h, written once over its vector type: PairLanes or WideLanes over float arrays, double alone
-// for the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out of
-// the other.
+// for the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out
+// of the other.
 
 namespace sateen {
 
 namespace {
 
-/// How the kernel sees a vector type.
+/// w.t and w.n_t of a direction on the references of some tangents: those are tilted against them by the offsets in
+/// ThreadView.
 template <class V>
-struct Vector {
-  using Real = float;
-  static constexpr int width = V::width;
-  static V load(const float* p) { return V::load(p); }
-  static void store(float* p, V v) { v.store(p); }
-  /// Eight numbers of a block of 8 tangents, for each of the blocks that are held.
-  static V every_block(const float* p, int) {
-    if constexpr (width == 16)
-      return V::twice(p);
-    else
-      return V::load(p);
-  }
-  /// A pair of numbers, of warp and weft, in the first two lanes.
-  static V pair(float warp, float weft, int) { return V::of(warp, weft, 1, 1); }
-  /// One number for each of the blocks that are held.
-  static V by_block(const float* values) {
-    if constexpr (width == 16)
-      return V::halves(values[0], values[1]);
-    else
-      return V(values[0]);
-  }
-};
-template <>
-struct Vector<double> {
-  using Real = double;
-  static constexpr int width = 1;
-  static double load(const double* p) { return *p; }
-  static void store(double* p, double v) { *p = v; }
-  static double every_block(const double* p, int lane) { return p[lane]; }
-  static double pair(double warp, double weft, int k) { return k == 0 ? warp : weft; }
-  static double by_block(const double* values) { return values[0]; }
+struct OnReference {
+  V along, normal;
 };
 
-/// Blocks of 8 tangents that V takes at once.
-template <class V>
-constexpr int blocks_at_once = Vector<V>::width == 16 ? 2 : 1;
-
-// cos theta below 1e-12 is far below what a unit direction in float can state (6e-8). The floor only keeps end-on
-// threads finite until M, which is 0 or finite there, decides the limit.
-constexpr float smallest_cos2 = 1e-24f;
-constexpr float smallest_projection2 = 1e-30f;
-constexpr double quarter_turn = 1.57079632679489662;
-
-/// atan2(across, along) for along >= 0.
-template <class V>
-V signed_angle(V across, V along) {
-  using Real = typename Vector<V>::Real;
-  const V magnitude = atan_magnitude(across, max(along, V(Real(1e-30f))));
-  return select_less(across, V(Real(0)), V(Real(0)) - magnitude, magnitude);
-}
-
-/// The offsets of both families that can face a direction.
+/// Of the tangents from k on, in the blocks from `block` on: panels have one reference each, flat pieces their own.
 template <class V, class Real>
-void facing(const Real (&along)[2], Real z, Real (&from)[2], Real (&to)[2]) {
-  // w.n_t = hypot(d, z) cos(psi + alpha): seen while alpha stays within a quarter turn of -psi.
-  Real psi[16];
-  for (int k = 0; k < 2; k += Vector<V>::width)
-    Vector<V>::store(&psi[k], signed_angle(Vector<V>::pair(-along[0], -along[1], k), V(z)));
-  for (int family = 0; family < 2; ++family) {
-    from[family] = psi[family] - Real(quarter_turn);
-    to[family] = psi[family] + Real(quarter_turn);
-  }
-}
-
-/// Fills the view terms of the blocks from `block` on that V takes at once, with their nodes gathered in view.from
-/// ... view.to.
-template <class V, class Real>
-void fill_blocks(const Threads<Real>& t, int block, ThreadView<Real>& view) {
+OnReference<V> on_reference(const Threads<Real>& t, const PanelSight<Real>& sight, const int* slots, int block, int k,
+                            V x, V y, V z) {
   using Vec = Vector<V>;
-  const Real x = view.wo[0], y = view.wo[1], z = view.wo[2];
-  const V wx = V(x), wy = V(y), wz = V(z), zero = V(Real(0)), half = V(Real(0.5));
+  constexpr int at_once = blocks_at_once<V>;
+  const int panels = t.panels[0] + t.panels[1];
+  Real along[2], normal[2];
+  for (int n = 0; n < at_once; ++n) {
+    const int slot = slots[block + n < panels ? block + n : 0];
+    along[n] = sight.along[slot], normal[n] = sight.normal[slot];
+  }
+  if (block + at_once <= panels) return {Vec::by_block(along), Vec::by_block(normal)};
+
+  const V half = V(Real(0.5)), d = select_less(half, Vec::load(&t.along_x[k]), x, y);
+  const V c = Vec::load(&t.own.cosine[k]), s = Vec::load(&t.own.sine[k]);
+  const V across = across_thread(z, d, c, Vec::load(&t.own.cosine_rest[k]), s, Vec::load(&t.own.sine_rest[k]));
+  const OnReference<V> own{fma(d, c, z * s), across};
+  if (block >= panels) return own;
+  constexpr Real second[2] = {0, 1};
+  const V here = Vec::by_block(second);
+  return {select_less(half, here, own.along, Vec::by_block(along)),
+          select_less(half, here, own.normal, Vec::by_block(normal))};
+}
+
+/// Offsets that face a direction, of both families.
+template <class Real>
+void facing(const Real (&along)[2], const PanelSight<Real>& sight, Real (&from)[2], Real (&to)[2]) {
+  for (int family = 0; family < 2; ++family) {
+    from[family] = along[family] < 0 ? -sight.elevation[family] : Real(-quarter_turn);
+    to[family] = along[family] > 0 ? sight.elevation[family] : Real(quarter_turn);
+  }
+}
+
+/// Fills the view terms of the blocks from `block` on that V takes at once, with their nodes gathered in the windows,
+/// those of loose slopes in view.from ... view.to. `sight` is that of wo.
+template <class V, class Real>
+void fill_blocks(const Threads<Real>& t, int block, const PanelSight<Real>& sight, const PanelWindows<Real>& windows,
+                 ThreadView<Real>& view) {
+  using Vec = Vector<V>;
+  constexpr int at_once = blocks_at_once<V>;
+  const int panels = t.panels[0] + t.panels[1];
+  const V wx = V(view.wo[0]), wy = V(view.wo[1]), wz = V(view.wo[2]);
+  const V zero = V(Real(0)), half = V(Real(0.5)), one = V(Real(1)), two = V(Real(2));
+  Real from_of[2] = {0, 0}, seen_of[2] = {0, 0}, share_of[2] = {0, 0}, is_panel[2] = {0, 0};
+  for (int n = 0; n < at_once && block + n < panels; ++n) {
+    const int p = block + n;
+    const Real from = windows.from[p], seen = windows.seen[p];
+    from_of[n] = from, seen_of[n] = seen, share_of[n] = seen * t.inverse_span[p * 8], is_panel[n] = 1;
+    const int reference = int(windows.reference[p]);
+    view.slot[p] = reference < 2 ? panel_slot(p, reference) : in_plane_slot(t.panel_warp[p] > 0 ? 0 : 1);
+    const Real offset = reference < 2 ? Real(t.panel_offset[reference][p]) : 0;
+    view.panel_start[p] = offset + (from + seen * t.panel_from[p]);
+    view.panel_inverse[p] = seen > 0 ? 1 / (seen * (t.panel_to[p] - t.panel_from[p])) : Real(0);
+  }
   bool alive = false;
-  for (int k = block * 8; k < (block + blocks_at_once<V>)*8; k += Vec::width) {
-    const V is_warp = Vec::load(&t.along_x[k]);
-    const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
+  for (int k = block * 8; k < (block + at_once) * 8; k += Vec::width) {
+    const V is_warp = Vec::load(&t.along_x[k]), node = Vec::load(&t.node[k]);
+    const V b = select_less(half, is_warp, wy, wx);
     const V scale = select_less(half, is_warp, V(view.scale[0]), V(view.scale[1]));
+    V offset = fma(Vec::by_block(seen_of), node, Vec::by_block(from_of)), share = Vec::by_block(share_of);
+    if (block + at_once > panels) {
+      // Flat pieces have neither start nor span.
+      const V here = Vec::by_block(is_panel), a0 = Vec::load(&t.start[k]), a1 = a0 + Vec::load(&t.span[k]);
+      V from = a0, seen = a1 - a0;
+      if (t.loose_slopes) {
+        from = max(a0, select_less(half, is_warp, V(view.from[0]), V(view.from[1])));
+        seen = max(min(a1, select_less(half, is_warp, V(view.to[0]), V(view.to[1]))) - from, zero);
+        from = select_less(half, Vec::load(&t.flat[k]), zero, min(from, a1));
+      }
+      const V part = fma(seen, Vec::load(&t.inverse_span[k]), Vec::load(&t.flat[k]));
+      offset = select_less(half, here, offset, fma(seen, node, from));
+      share = select_less(half, here, share, part);
+    }
+    const V weight = Vec::load(&t.weight[k]) * share;
+    // An offset from an end of its segment may be more than a quarter turn.
+    const V sine = sin_quarter(half * offset), cosine = cos_quarter(half * offset);
+    const V c = fnma(two * sine, sine, one), s = two * sine * cosine;
 
-    const V flat = Vec::load(&t.flat[k]), a0 = Vec::load(&t.start[k]), a1 = a0 + Vec::load(&t.span[k]);
-    const V from = max(a0, select_less(half, is_warp, V(view.from[0]), V(view.from[1])));
-    const V to = min(a1, select_less(half, is_warp, V(view.to[0]), V(view.to[1])));
-    const V seen = max(to - from, zero);
-    const V offset = select_less(half, flat, a0, fma(seen, Vec::load(&t.node[k]), min(from, a1)));
-    const V weight = Vec::load(&t.weight[k]) * fma(seen, Vec::load(&t.inverse_span[k]), flat);
-    const V c = cos_quarter(offset), s = sin_quarter(offset);
-
-    const V normal = max(fnma(d, s, wz * c), zero);
+    const OnReference<V> w = on_reference(t, sight, view.slot, block, k, wx, wy, wz);
+    const V normal = max(fnma(w.along, s, w.normal * c), zero);
     const V cos_r = sqrt(max(fma(normal, normal, b * b), V(Real(smallest_cos2))));
-    const V inverse = V(Real(1)) / cos_r;
+    const V inverse = one / cos_r;
     Vec::store(&view.cos_offset[k], c);
     Vec::store(&view.sin_offset[k], s);
     Vec::store(&view.weight_warp[k], weight * is_warp);
-    Vec::store(&view.weight_weft[k], weight * (V(Real(1)) - is_warp));
-    Vec::store(&view.sin_r[k], fma(d, c, wz * s));
+    Vec::store(&view.weight_weft[k], weight * (one - is_warp));
+    Vec::store(&view.sin_r[k], fma(w.along, c, w.normal * s));
     Vec::store(&view.cos_r[k], cos_r);
     Vec::store(&view.normal_r[k], normal * inverse);
     Vec::store(&view.binormal_r[k], b * inverse);
     Vec::store(&view.projected_r[k], normal * scale);
     alive = alive || sum(normal * weight) > 0;
   }
-  for (int held = block; held < block + blocks_at_once<V>; ++held) {
-    view.alive[held] = alive;
-    if (held >= t.panels[0] + t.panels[1]) continue;
-    const int family = held < t.panels[0] ? 0 : 1;
-    const Real start = t.start[held * 8], end = start + t.span[held * 8];
-    const Real from = std::max(start, view.from[family]), seen = std::min(end, view.to[family]) - from;
-    view.panel_start[held] = from + seen * t.panel_from[held];
-    view.panel_inverse[held] = seen > 0 ? 1 / (seen * (t.panel_to[held] - t.panel_from[held])) : Real(0);
-  }
+  for (int n = 0; n < at_once; ++n) view.alive[block + n] = alive;
 }
 
 /// What a light direction has in common for all tangents of a family.
@@ -218,8 +205,12 @@ void prepare_view_in(const Threads<Real>& threads, Real x, Real y, Real z, Threa
     view.across_d[family] = d * view.scale[family];
     view.across_n[family] = z * view.scale[family];
   }
-  facing<V>({x, y}, z, view.from, view.to);
-  for (int block = 0; block * 8 < t.count; block += blocks_at_once<V>) fill_blocks<V>(t, block, view);
+  see_panels<V>(t, x, y, z, true, view.sight);
+  if (t.loose_slopes) facing({x, y}, view.sight, view.from, view.to);
+  view.slot[0] = 0;
+  common_windows<V>(t, view.sight, view.sight, view.windows, view.windows);
+  for (int block = 0; block * 8 < t.count; block += blocks_at_once<V>)
+    fill_blocks<V>(t, block, view.sight, view.windows, view);
 }
 
 template <class V, class Real>
@@ -236,26 +227,27 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
 
   // Where wi sees less of a sloping segment than wo does, the nodes gather in what both see.
   ThreadView<Real> gathered;
-  const Real along[2] = {x, y};
+  PanelSight<Real> sight;
   const bool other = view_of_wo.threads != &t;
-  bool clipped = other;
-  for (int family = 0; family < 2; ++family) clipped = clipped || std::abs(along[family]) > t.clip_free[family] * z;
+  see_panels<V>(t, x, y, z, other || t.loose_slopes, sight);
+  const bool clipped = other || t.loose_slopes || !sight.whole;
   if (clipped) {
     std::copy(view_of_wo.wo, view_of_wo.wo + 3, gathered.wo);
-    facing<V>(along, z, gathered.from, gathered.to);
+    std::copy(view_of_wo.scale, view_of_wo.scale + 2, gathered.scale);
+    gathered.slot[0] = 0;
+  }
+  if (other) see_panels<V>(t, view_of_wo.wo[0], view_of_wo.wo[1], view_of_wo.wo[2], true, gathered.sight);
+  const PanelSight<Real>& sight_of_wo = other ? gathered.sight : view_of_wo.sight;
+  if (clipped) common_windows<V>(t, sight, sight_of_wo, view_of_wo.windows, gathered.windows);
+  if (t.loose_slopes) {
+    Real from[2], to[2];
+    facing({x, y}, sight, from, to);
+    facing({view_of_wo.wo[0], view_of_wo.wo[1]}, sight_of_wo, gathered.from, gathered.to);
     for (int family = 0; family < 2; ++family) {
-      gathered.from[family] = std::max(gathered.from[family], view_of_wo.from[family]);
-      gathered.to[family] = std::min(gathered.to[family], view_of_wo.to[family]);
-      gathered.scale[family] = view_of_wo.scale[family];
+      gathered.from[family] = std::max(gathered.from[family], from[family]);
+      gathered.to[family] = std::min(gathered.to[family], to[family]);
     }
   }
-  const auto regathers = [&](int block) {
-    if (!clipped || other || block >= panels) return other;
-    const int family = block < t.panels[0] ? 0 : 1;
-    const Real start = t.start[block * 8], end = start + t.span[block * 8];
-    return gathered.from[family] > std::max(start, view_of_wo.from[family]) ||
-           gathered.to[family] < std::min(end, view_of_wo.to[family]);
-  };
 
   FamilyTerms<Real> terms;
   family_terms<V>(t, view_of_wo, x, y, z, terms);
@@ -267,11 +259,13 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
   for (int n = 0; n < sums; ++n)
     surface_warp[n] = surface_weft[n] = volume_warp[n] = volume_weft[n] = reweight[n] = zero;
   for (int block = 0; block * 8 < t.count; block += at_once) {
-    const bool regather = regathers(block) || (at_once == 2 && regathers(block + 1));
+    bool regather = other || (t.loose_slopes && block + at_once > panels);
     if (!regather && !view_of_wo.alive[block]) continue;
-    if (regather) {
-      fill_blocks<V>(t, block, gathered);
-      if (!gathered.alive[block]) continue;
+    if (clipped) {
+      for (int p = block; p < std::min(block + at_once, panels); ++p)
+        regather = regather || gathered.windows.changed[p] > 0;
+      if (regather) fill_blocks<V>(t, block, sight_of_wo, gathered.windows, gathered);
+      if (regather && !gathered.alive[block]) continue;
     }
     const ThreadView<Real>& view = regather ? gathered : view_of_wo;
     const Kinks<Real> kinks = kinks_of(t, view, terms, block, at_once);
@@ -280,12 +274,13 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
     const int n = sums == 1 ? 0 : block & 1;
     for (int k = block * 8; k < (block + at_once) * 8; k += Vec::width) {
       const V is_warp = Vec::load(&t.along_x[k]);
-      const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
+      const V b = select_less(half, is_warp, wy, wx);
       const V c = Vec::load(&view.cos_offset[k]), s = Vec::load(&view.sin_offset[k]);
 
       // Inclination and azimuth of wi on this tangent.
-      const V sin_i = fma(d, c, wz * s);
-      const V normal = max(fnma(d, s, wz * c), zero);
+      const OnReference<V> w = on_reference(t, sight, view.slot, block, k, wx, wy, wz);
+      const V sin_i = fma(w.along, c, w.normal * s);
+      const V normal = max(fnma(w.along, s, w.normal * c), zero);
       const V cos_i = sqrt(max(fma(normal, normal, b * b), V(Real(smallest_cos2))));
       const V inverse = one / cos_i;
       const V m_i = normal * inverse, b_i = b * inverse;
