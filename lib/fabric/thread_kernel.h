@@ -221,7 +221,10 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
   ThreadSums<Real> out;
   if (!(z > 0) || !(view_of_wo.wo[2] > 0)) return out;
 
-  const bool fine = !threads.grazing.empty() && (z < Real(grazing_z) || view_of_wo.wo[2] < Real(grazing_z));
+  const Real* wo = view_of_wo.wo;
+  const bool opposite = x * wo[0] + y * wo[1] < 0 && z + wo[2] < Real(opposite_grazing_z);
+  const bool grazes = opposite || z < Real(grazing_z) || wo[2] < Real(grazing_z);
+  const bool fine = grazes && !threads.grazing.empty();
   const Threads<Real>& t = fine ? threads.grazing.front() : threads;
   const int panels = t.panels[0] + t.panels[1];
 
@@ -232,17 +235,17 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
   see_panels<V>(t, x, y, z, other || t.loose_slopes, sight);
   const bool clipped = other || t.loose_slopes || !sight.whole;
   if (clipped) {
-    std::copy(view_of_wo.wo, view_of_wo.wo + 3, gathered.wo);
+    std::copy(wo, wo + 3, gathered.wo);
     std::copy(view_of_wo.scale, view_of_wo.scale + 2, gathered.scale);
     gathered.slot[0] = 0;
   }
-  if (other) see_panels<V>(t, view_of_wo.wo[0], view_of_wo.wo[1], view_of_wo.wo[2], true, gathered.sight);
+  if (other) see_panels<V>(t, wo[0], wo[1], wo[2], true, gathered.sight);
   const PanelSight<Real>& sight_of_wo = other ? gathered.sight : view_of_wo.sight;
   if (clipped) common_windows<V>(t, sight, sight_of_wo, view_of_wo.windows, gathered.windows);
   if (t.loose_slopes) {
     Real from[2], to[2];
     facing({x, y}, sight, from, to);
-    facing({view_of_wo.wo[0], view_of_wo.wo[1]}, sight_of_wo, gathered.from, gathered.to);
+    facing({wo[0], wo[1]}, sight_of_wo, gathered.from, gathered.to);
     for (int family = 0; family < 2; ++family) {
       gathered.from[family] = std::max(gathered.from[family], from[family]);
       gathered.to[family] = std::min(gathered.to[family], to[family]);
