@@ -203,6 +203,20 @@ struct SliceMaker {
   }
 };
 
+/// Nodes of s from the middle to one end. The ridge of a weft lobe wanders over the warp's rows from view to view,
+/// which no turn of a slice undoes: it must not pass its own width between two nodes. Those of `half_s_nodes` suit
+/// lobes of 3 degrees; with them one of 1.6 that is tilted by 64 shows weights of 139 times the mean, with 24 nodes
+/// of 9.7.
+int half_s_nodes_of(const Threads<float>& t) {
+  if (t.first[1] < 0) return half_s_nodes;
+  const auto k = size_t(t.first[1]);
+  const double surface = t.eta2_minus_1[k] > 0 ? double(t.surface_exponent[k]) : 0;
+  const double volume = t.volume_norm[k] > 0 ? double(t.volume_exponent[k]) : 0;
+  constexpr double wide_enough = 3.0 / 180 * 2 * half_pi;
+  const double narrower = wide_enough * std::sqrt(2 * std::max(surface, volume));  // 1 / (2 gamma^2)
+  return 1 + int(std::ceil((half_s_nodes - 1) * std::clamp(narrower, 1.0, 2.0)));
+}
+
 float wrap_theta(float theta) {
   constexpr float quarter = float(half_pi);
   if (theta >= quarter) theta -= pi;
@@ -237,8 +251,9 @@ DirectionTable tabulate_directions(const Threads<float>& threads, float volume_w
   table.mirror_x = mirror_x;
   table.mirror_y = mirror_y;
   const auto half_of = [&](int usual) { return std::max(int(std::lround(usual * size)), 2); };
-  table.s_nodes = mirror_x ? half_of(half_s_nodes) : 2 * half_of(half_s_nodes) - 1;
-  table.phi_nodes = mirror_y ? half_of(half_phi_nodes) : 2 * half_of(half_phi_nodes) - 1;
+  const int half_s = half_of(half_s_nodes_of(threads)), half_phi = half_of(half_phi_nodes);
+  table.s_nodes = mirror_x ? half_s : 2 * half_s - 1;
+  table.phi_nodes = mirror_y ? half_phi : 2 * half_phi - 1;
   const int nodes = table.s_nodes * table.phi_nodes;
   table.node_theta.resize(nodes);
   table.cumulative.resize(size_t(nodes) * (cells + 1));

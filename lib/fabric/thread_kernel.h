@@ -144,8 +144,11 @@ void family_terms(const Threads<Real>& t, const ThreadView<Real>& view, Real x, 
     const V side = select_less(d_r * z_i, d_i * z_r, V(Real(1)), V(Real(-1)));
     Vec::store(&terms.side[k], side);
     Vec::store(&terms.masking_kink[k], signed_angle(side * (z_i * b_r - z_r * b_i), side * (d_i * b_r - d_r * b_i)));
-    // p is the cosine of psi plus the offset: the middle between the two.
-    Vec::store(&terms.projected_kink[k], signed_angle(zero - plus_d, plus_n));
+    // p is the cosine of psi plus the offset: the middle between the two. Of the two forms of the tangent of half a
+    // sum the one that does not cancel: of nearly opposite directions the sums are nothing but rounding.
+    const V apart = select_less(minus_d, zero, zero - minus_n, minus_n);
+    const V across = select_less(h2, q, apart, zero - plus_d), along = select_less(h2, q, abs(minus_d), plus_n);
+    Vec::store(&terms.projected_kink[k], signed_angle(across, along));
   }
 }
 
