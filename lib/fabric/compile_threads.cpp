@@ -62,6 +62,7 @@ void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangen
                   const std::vector<Tangent>& weft) {
   const ThreadFamily* families[2] = {&look.warp, &look.weft};
   const std::vector<Tangent>* curves[2] = {&warp, &weft};
+  double steepest[2] = {0, 0};
   for (const bool in_panels : {true, false})
     for (int family = 0; family < 2; ++family) {
       if (!(families[family]->coverage > 0)) continue;
@@ -80,10 +81,15 @@ void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangen
         out.panel_warp.push_back(family == 0 ? 1 : 0);
         for (int end = 0; end < 2; ++end) {
           const double offset = end == 0 ? all[n].start : all[n].end;
-          out.panel_offset[end].push_back(offset);
+          out.panel_offset[end].push_back(Real(offset));
+          out.ends[end].add(offset);
+          steepest[family] = std::max(steepest[family], std::abs(offset));
         }
       }
     }
+  // A little less than the tangent, so that no rounding calls a segment seen that is not.
+  for (int family = 0; family < 2; ++family)
+    out.clip_free[family] = Real(0.9999 * std::tan(std::max(std::numbers::pi / 2 - steepest[family], 0.0)));
   const SignChange rows = sign_change();
   for (int j = 0; j <= panel_nodes; ++j)
     for (int k = 0; k < panel_nodes; ++k) out.sign_change[j][k] = Real(rows[j][k]);
@@ -103,14 +109,10 @@ void pad(Threads<Real>& t) {
   t.count = int(t.weight.size());
   pad_values<Real>({&t.start, &t.span, &t.node, &t.flat, &t.inverse_span, &t.along_x, &t.eta2, &t.eta2_minus_1,
                     &t.surface_exponent, &t.surface_norm, &t.volume_exponent, &t.volume_norm, &t.isotropic});
-  pad_values<Real>({&t.own.cosine, &t.own.cosine_rest, &t.own.sine, &t.own.sine_rest});
-  pad_values<Real>({&t.panel_from, &t.panel_to, &t.panel_span, &t.panel_warp});
-  for (size_t p = 0; p < t.panel_warp.size(); p += 8)
-    for (const int end : {0, 1})
-      for (size_t k = p; k < p + 8; ++k) {
-        t.ends.add(t.panel_offset[end][std::min(k, t.panel_offset[end].size() - 1)]);
-        t.ends_warp.push_back(t.panel_warp[k]);
-      }
+  pad_values<Real>({&t.panel_from, &t.panel_to, &t.panel_warp, &t.panel_offset[0], &t.panel_offset[1]});
+  for (Turns<Real>* turns : {&t.own, &t.ends[0], &t.ends[1]})
+    pad_values<Real>({&turns->cosine, &turns->cosine_rest, &turns->sine, &turns->sine_rest});
+  t.panel_span.resize(t.panel_warp.size(), 0);
 }
 
 template <class Real>

@@ -22,76 +22,121 @@ V across_thread(V z, V d, V cosine, V cosine_rest, V sine, V sine_rest) {
   return (fma(z, cosine, V(typename Vector<V>::Real(0)) - product) + left_out) + fnma(d, sine_rest, z * cosine_rest);
 }
 
-/// Eight panels side by side, or one.
+/// Eight panels side by side for the float kernels of both widths, or one.
 template <class V>
-using PanelLanes = std::conditional_t<Vector<V>::width == 16, Lanes, V>;
+using PanelLanes = std::conditional_t<Vector<V>::width == 1, V, Lanes>;
 
-/// w.n_t and w.t at the ends of all panels' segments; how far w sees where it does not see all of them, or where
-/// `reach` asks for it.
-template <class V, class Real>
-void see_panels(const Threads<Real>& t, Real x, Real y, Real z, bool reach, PanelSight<Real>& sight) {
-  using Vec = Vector<V>;
-  using P = PanelLanes<V>;
-  using Panel = Vector<P>;
-  const int panels = t.panels[0] + t.panels[1];
-  const V wx = V(x), wy = V(y), wz = V(z), none = V(Real(0)), half = V(Real(0.5));
-  V least = V(Real(1));
-  for (int k = 0; k < int(t.ends_warp.size()); k += Vec::width) {
-    const V d = select_less(half, Vec::load(&t.ends_warp[k]), wx, wy);
-    const V c = Vec::load(&t.ends.cosine[k]), s = Vec::load(&t.ends.sine[k]);
-    const V normal = across_thread(wz, d, c, Vec::load(&t.ends.cosine_rest[k]), s, Vec::load(&t.ends.sine_rest[k]));
-    Vec::store(&sight.normal[k], normal);
-    Vec::store(&sight.along[k], fma(d, c, wz * s));
-    least = min(least, normal);
-  }
-  for (int family = 0; family < 2; ++family) {
-    sight.along[in_plane_slot(family)] = family == 0 ? x : y;
-    sight.normal[in_plane_slot(family)] = z;
-  }
-  sight.whole = !(sum(select_less(none, least, none, V(Real(1)))) > 0);
-  if (sight.whole && !reach) return;
+/// What a direction sees of the segments of some panels: one row of PanelSight.
+template <class P>
+struct Sight {
+  P normal[2], along[2], reach, elevation;
+};
 
-  const P zero = P(Real(0)), tiny = P(Real(1e-30f)), everything = P(Real(10)), half_turn = P(Real(2 * quarter_turn));
-  for (int k = 0; k < 2; k += Panel::width)
-    Panel::store(&sight.elevation[k], atan_magnitude(P(z), max(abs(Panel::pair(x, y, k)), tiny)));
-  // w.n_t = 0 at the angle atan2(w.n_t, w.t) behind the start, or before the end with the other sign of w.t.
-  for (int p = 0; p < panels; p += Panel::width) {
-    const int start = panel_slot(p, 0), end = panel_slot(p, 1);
-    const P first = Panel::load(&sight.normal[start]), last = Panel::load(&sight.normal[end]);
-    const P normal = select_less(zero, first, first, max(last, zero));
-    const P along = select_less(zero, first, Panel::load(&sight.along[start]), zero - Panel::load(&sight.along[end]));
-    const P acute = atan_magnitude(normal, max(abs(along), tiny));
-    const P angle = select_less(along, zero, half_turn - acute, acute);
-    Panel::store(&sight.reach[p], select_less(zero, min(first, last), everything, angle));
+/// w.n_t and w.t at the ends of the segments of the panels from p on.
+template <class P, class Real>
+Sight<P> see_ends(const Threads<Real>& t, int p, P along, P z) {
+  Sight<P> sight;
+  const auto load = [p](const std::vector<Real>& values) { return Vector<P>::load(&values[p]); };
+  for (int end = 0; end < 2; ++end) {
+    const Turns<Real>& turns = t.ends[end];
+    const P c = load(turns.cosine), s = load(turns.sine);
+    sight.normal[end] = across_thread(z, along, c, load(turns.cosine_rest), s, load(turns.sine_rest));
+    sight.along[end] = fma(along, c, z * s);
   }
+  return sight;
 }
 
-/// What two directions both see of the panels' segments; `changed` is above 0 where that is another window than
-/// `before`.
-template <class V, class Real>
-void common_windows(const Threads<Real>& t, const PanelSight<Real>& a, const PanelSight<Real>& b,
-                    const PanelWindows<Real>& before, PanelWindows<Real>& out) {
-  using P = PanelLanes<V>;
+/// Adds how far it sees: w.n_t = 0 at the angle atan2(w.n_t, w.t) behind the start, or before the end with the other
+/// sign of w.t.
+template <class P>
+void add_reach(P along_panel, P z, Sight<P>& sight) {
+  using Real = typename Vector<P>::Real;
+  const P zero = P(Real(0)), tiny = P(Real(1e-30f)), everything = P(Real(10)), half_turn = P(Real(2 * quarter_turn));
+  const P first = sight.normal[0], last = sight.normal[1];
+  const P normal = select_less(zero, first, first, max(last, zero));
+  const P along = select_less(zero, first, sight.along[0], zero - sight.along[1]);
+  const P acute = atan_magnitude(normal, max(abs(along), tiny));
+  const P angle = select_less(along, zero, half_turn - acute, acute);
+  sight.reach = select_less(zero, min(first, last), everything, angle);
+  sight.elevation = atan_magnitude(z, max(abs(along_panel), tiny));
+}
+
+/// Both of the above.
+template <class P, class Real>
+Sight<P> see_panels(const Threads<Real>& t, int p, P along, P z) {
+  Sight<P> sight = see_ends<P>(t, p, along, z);
+  add_reach(along, z, sight);
+  return sight;
+}
+
+/// What two directions both see of the segments of some panels: one row of PanelWindows.
+template <class P>
+struct Window {
+  P reference, from, seen;
+};
+
+template <class P>
+Window<P> common_window(P span, const Sight<P>& a, const Sight<P>& b) {
+  using Real = typename Vector<P>::Real;
+  const P zero = P(Real(0)), one = P(Real(1));
+  const P start = min(a.normal[0], b.normal[0]), end = min(a.normal[1], b.normal[1]);
+  const P either = max(min(a.normal[0], b.normal[1]), min(a.normal[1], b.normal[0]));
+  const P near = min(span, min(a.reach, b.reach));
+  const P across = select_less(zero, either, min(span, a.elevation + b.elevation), zero);
+  const P from_across = zero - select_less(zero, a.normal[0], b.elevation, a.elevation);
+  return {select_less(zero, start, zero, select_less(zero, end, one, one + one)),
+          select_less(zero, start, zero, select_less(zero, end, zero - near, from_across)),
+          select_less(zero, max(start, end), near, across)};
+}
+
+/// One of three by the reference of a window.
+template <class P>
+P by_reference(P reference, P start, P end, P none) {
+  using Real = typename Vector<P>::Real;
+  return select_less(reference, P(Real(0.5)), start, select_less(reference, P(Real(1.5)), end, none));
+}
+
+/// Where the panels from p on lie now.
+template <class P, class Real>
+void place_panels(const Threads<Real>& t, int p, const Window<P>& window, P& start, P& inverse_width) {
+  const auto load = [p](const std::vector<Real>& values) { return Vector<P>::load(&values[p]); };
+  const P zero = P(Real(0)), from = load(t.panel_from), width = window.seen * (load(t.panel_to) - from);
+  const P offset = by_reference(window.reference, load(t.panel_offset[0]), load(t.panel_offset[1]), zero);
+  start = offset + fma(window.seen, from, window.from);
+  inverse_width = select_less(zero, window.seen, P(Real(1)) / max(width, P(Real(1e-30f))), zero);
+}
+
+/// Keeps a window for fill_blocks; `sight`, `along` and `z` are those of wo.
+template <class P, class Real>
+void store_window(int p, const Window<P>& window, const Sight<P>& sight, P along, P z, PanelWindows<Real>& windows) {
   using Panel = Vector<P>;
-  const P zero = P(Real(0)), one = P(Real(1)), half = P(Real(0.5));
+  Panel::store(&windows.from[p], window.from);
+  Panel::store(&windows.seen[p], window.seen);
+  Panel::store(&windows.along[p], by_reference(window.reference, sight.along[0], sight.along[1], along));
+  Panel::store(&windows.normal[p], by_reference(window.reference, sight.normal[0], sight.normal[1], z));
+}
+
+/// Sight and windows of view.wo alone.
+template <class P, class Real>
+void view_panels(const Threads<Real>& t, ThreadView<Real>& view) {
+  using Panel = Vector<P>;
+  const P half = P(Real(0.5)), z = P(view.wo[2]);
   for (int p = 0; p < t.panels[0] + t.panels[1]; p += Panel::width) {
-    const int first = panel_slot(p, 0), last = panel_slot(p, 1);
-    const P a0 = Panel::load(&a.normal[first]), a1 = Panel::load(&a.normal[last]);
-    const P b0 = Panel::load(&b.normal[first]), b1 = Panel::load(&b.normal[last]);
-    const P start = min(a0, b0), end = min(a1, b1), either = max(min(a0, b1), min(a1, b0));
-    const P is_warp = Panel::load(&t.panel_warp[p]);
-    const P rise_a = select_less(half, is_warp, P(a.elevation[0]), P(a.elevation[1]));
-    const P rise_b = select_less(half, is_warp, P(b.elevation[0]), P(b.elevation[1]));
-    const P near = min(Panel::load(&t.panel_span[p]), min(Panel::load(&a.reach[p]), Panel::load(&b.reach[p])));
-    const P across = select_less(zero, either, rise_a + rise_b, zero);
-    const P from_across = zero - select_less(zero, a0, rise_b, rise_a);
-    const P seen = select_less(zero, max(start, end), near, across);
-    const P reference = select_less(zero, start, zero, select_less(zero, end, one, one + one));
-    Panel::store(&out.seen[p], seen);
-    Panel::store(&out.from[p], select_less(zero, start, zero, select_less(zero, end, zero - near, from_across)));
-    Panel::store(&out.reference[p], reference);
-    Panel::store(&out.changed[p],
-                 max(Panel::load(&before.seen[p]) - seen, abs(reference - Panel::load(&before.reference[p]))));
+    const P d = select_less(half, Panel::load(&t.panel_warp[p]), P(view.wo[0]), P(view.wo[1]));
+    const Sight<P> sight = see_panels<P>(t, p, d, z);
+    for (int end = 0; end < 2; ++end) {
+      Panel::store(&view.sight.normal[end][p], sight.normal[end]);
+      Panel::store(&view.sight.along[end][p], sight.along[end]);
+    }
+    Panel::store(&view.sight.reach[p], sight.reach);
+    Panel::store(&view.sight.elevation[p], sight.elevation);
+    const Window<P> window = common_window(Panel::load(&t.panel_span[p]), sight, sight);
+    P start, inverse_width;
+    place_panels(t, p, window, start, inverse_width);
+    store_window(p, window, sight, d, z, view.windows);
+    Panel::store(&view.windows.reference[p], window.reference);
+    Panel::store(&view.windows.start[p], start);
+    Panel::store(&view.windows.inverse_width[p], inverse_width);
   }
 }
 

@@ -48,12 +48,12 @@ struct Threads {
 
   /// The first blocks of 8 tangents are panels of Gauss-Legendre nodes, `panels[0]` of the warp, then `panels[1]` of
   /// the weft: each panel's segment, the place of the panel's ends in it, and the integrals of sign_change(). Padded
-  /// to a multiple of 8.
+  /// to a multiple of 8 with panels that have no span.
   int panels[2] = {0, 0};
   std::vector<Real> panel_from, panel_to, panel_span, panel_warp;
-  std::vector<double> panel_offset[2];  ///< start and end of the segment [radians]
-  Turns<Real> ends;                     ///< of both, at panel_slot()
-  std::vector<Real> ends_warp;
+  std::vector<Real> panel_offset[2];  ///< start and end of the segment [radians]
+  Turns<Real> ends[2];                ///< of both
+  Real clip_free[2];          ///< wi sees all segments of warp or weft end to end while |wi.d| <= clip_free wi.z
   bool loose_slopes = false;  ///< some sloping segments are not in panels: finer rules that the tests measure with
   Real sign_change[panel_nodes + 1][panel_nodes];
 
@@ -77,22 +77,15 @@ inline constexpr int most_tangents = 1024;
 /// Most panels: blocks of 8.
 inline constexpr int most_panels = most_tangents / panel_nodes;
 
-/// Place of a panel's start (0) or end (1): the starts of 8 panels, then their ends, then the next 8.
-constexpr int panel_slot(int panel, int end) {
-  return panel / 8 * 16 + end * 8 + panel % 8;
-}
-/// Behind them: no offset at all, for warp (0) and weft (1).
-constexpr int in_plane_slot(int family) {
-  return 2 * most_panels + family;
-}
+/// Size of the arrays over tangents: not a power of two, or they all would share a few sets of the cache.
+inline constexpr int tangent_slots = most_tangents + 48;
 
-/// What a direction sees of the panels' segments (panel_sight.h).
+/// What a direction sees of the panels' segments (panel_sight.h), for each panel.
 template <class Real>
 struct PanelSight {
-  Real normal[2 * most_panels + 2], along[2 * most_panels + 2];  ///< w.n_t and w.t at panel_slot and in_plane_slot
-  bool whole = false;                                            ///< it sees all segments from end to end
-  Real reach[most_panels];  ///< how far it sees from the end that it sees; 10 where from end to end [radians]
-  Real elevation[8];        ///< over the cloth in the planes of warp and weft, 0 to pi/2 [radians]
+  Real normal[2][most_panels], along[2][most_panels];  ///< w.n_t and w.t at start and end
+  Real reach[most_panels];      ///< how far it sees from the end that it sees; 10 where from end to end [radians]
+  Real elevation[most_panels];  ///< over the cloth in the panel's plane, 0 to pi/2 [radians]
 };
 
 /// The parts of their segments that the panels' nodes are gathered in, as offsets from a reference: the segment's
@@ -100,7 +93,9 @@ struct PanelSight {
 template <class Real>
 struct PanelWindows {
   Real reference[most_panels], from[most_panels], seen[most_panels];  ///< the last two in radians
-  Real changed[most_panels];
+  Real along[most_panels], normal[most_panels];                       ///< wo.t and wo.n_t on the reference
+  Real start[most_panels], inverse_width[most_panels];                ///< where the panel lies now [radians]
+  Real changed[most_panels];  ///< above 0 where wi made another window of it than wo alone
 };
 
 /// Everything of a tangent that depends on the view alone, once per hit. Only the first `count` entries are filled.
@@ -109,19 +104,17 @@ struct PanelWindows {
 /// kinks that the minima in M and P have inside.
 template <class Real>
 struct ThreadView {
-  Real cos_offset[most_tangents], sin_offset[most_tangents];    ///< of the offset from its panel's reference
-  Real weight_warp[most_tangents], weight_weft[most_tangents];  ///< each in its own family's array, else 0
-  Real sin_r[most_tangents], cos_r[most_tangents];              ///< inclination of wo on the thread
-  Real normal_r[most_tangents], binormal_r[most_tangents];      ///< unit azimuth of wo; normal_r = cos phi_r >= 0
-  Real projected_r[most_tangents];                              ///< p_r = max(cos psi_r, 0)
+  Real cos_offset[tangent_slots], sin_offset[tangent_slots];    ///< of the offset from its panel's reference
+  Real weight_warp[tangent_slots], weight_weft[tangent_slots];  ///< each in its own family's array, else 0
+  Real sin_r[tangent_slots], cos_r[tangent_slots];              ///< inclination of wo on the thread
+  Real normal_r[tangent_slots], binormal_r[tangent_slots];      ///< unit azimuth of wo; normal_r = cos phi_r >= 0
+  Real projected_r[tangent_slots];                              ///< p_r = max(cos psi_r, 0)
   bool alive[most_panels];                                      ///< blocks of 8 in which some tangent faces the view
   Real scale[2];                                                ///< 1 / hypot(d, z) of wo for warp and weft
   Real across_d[2], across_n[2];  ///< unit (d, n) projection of wo for warp and weft: the angle psi_r
   Real from[2], to[2];            ///< offsets of the two families that can face the view, for loose slopes [radians]
   PanelSight<Real> sight;
   PanelWindows<Real> windows;
-  int slot[most_panels];                                      ///< of the panel's reference in PanelSight
-  Real panel_start[most_panels], panel_inverse[most_panels];  ///< where a panel lies now [radians]; 1 / its width
   Real wo[3] = {0, 0, 0};
   const Threads<Real>* threads = nullptr;  ///< those that the arrays belong to: the look's own or their `grazing`
 };
