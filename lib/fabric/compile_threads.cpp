@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <initializer_list>
 #include <numbers>
 
 #include "base/error.h"
@@ -29,26 +29,23 @@ size_t count_panel_nodes(const std::vector<Tangent>& tangents) {
 }
 
 template <class Real>
-void add_tangents(Threads<Real>& out, const ThreadFamily& family, bool warp, const Tangent* begin,
-                  const Tangent* end) {
+void add_tangents(Threads<Real>& out, const ThreadFamily& family, bool warp, const Tangent* begin, const Tangent* end,
+                  bool in_panels) {
   constexpr double to_radians = std::numbers::pi / 180;
   const double gamma_s = family.gamma_s_deg * to_radians, gamma_v = family.gamma_v_deg * to_radians;
   const double root = std::sqrt(2 * std::numbers::pi), eta = family.eta, k_d = family.k_d;
-  const int index = warp ? 0 : 1;
   for (const Tangent* tangent = begin; tangent != end; ++tangent) {
     const Tangent& t = *tangent;
     const bool flat = t.start == t.end;
-    out.start.push_back(Real(t.start));
+    out.start.push_back(flat ? 0 : Real(t.start));
     out.span.push_back(Real(t.end - t.start));
+    out.own.add(flat ? t.start : 0.0);
+    out.loose_slopes = out.loose_slopes || !(flat || in_panels);
     out.node.push_back(Real(t.node));
     out.flat.push_back(flat ? 1 : 0);
     out.inverse_span.push_back(flat ? 0 : Real(1 / (t.end - t.start)));
     out.weight.push_back(Real(double(family.coverage) * t.weight));
     out.along_x.push_back(warp ? 1 : 0);
-    if (!flat) {
-      out.slope_from[index] = std::min(out.slope_from[index], Real(t.start));
-      out.slope_to[index] = std::max(out.slope_to[index], Real(t.end));
-    }
     out.eta2.push_back(Real(eta * eta));
     out.eta2_minus_1.push_back(Real(eta * eta - 1));
     out.surface_exponent.push_back(Real(1 / (2 * gamma_s * gamma_s)));
@@ -65,22 +62,34 @@ void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangen
                   const std::vector<Tangent>& weft) {
   const ThreadFamily* families[2] = {&look.warp, &look.weft};
   const std::vector<Tangent>* curves[2] = {&warp, &weft};
+  double steepest[2] = {0, 0};
   for (const bool in_panels : {true, false})
     for (int family = 0; family < 2; ++family) {
       if (!(families[family]->coverage > 0)) continue;
       const Tangent* all = curves[family]->data();
       const size_t nodes = count_panel_nodes(*curves[family]);
       if (!in_panels) {
-        add_tangents(out, *families[family], family == 0, all + nodes, all + curves[family]->size());
+        add_tangents(out, *families[family], family == 0, all + nodes, all + curves[family]->size(), false);
         continue;
       }
-      add_tangents(out, *families[family], family == 0, all, all + nodes);
+      add_tangents(out, *families[family], family == 0, all, all + nodes, true);
       out.panels[family] = int(nodes / panel_nodes);
       for (size_t n = 0; n < nodes; n += panel_nodes) {
         out.panel_from.push_back(Real(all[n].panel_from));
         out.panel_to.push_back(Real(all[n].panel_to));
+        out.panel_span.push_back(Real(all[n].end - all[n].start));
+        out.panel_warp.push_back(family == 0 ? 1 : 0);
+        for (int end = 0; end < 2; ++end) {
+          const double offset = end == 0 ? all[n].start : all[n].end;
+          out.panel_offset[end].push_back(Real(offset));
+          out.ends[end].add(offset);
+          steepest[family] = std::max(steepest[family], std::abs(offset));
+        }
       }
     }
+  // A little less than the tangent, so that no rounding calls a segment seen that is not.
+  for (int family = 0; family < 2; ++family)
+    out.clip_free[family] = Real(0.9999 * std::tan(std::max(std::numbers::pi / 2 - steepest[family], 0.0)));
   const SignChange rows = sign_change();
   for (int j = 0; j <= panel_nodes; ++j)
     for (int k = 0; k < panel_nodes; ++k) out.sign_change[j][k] = Real(rows[j][k]);
@@ -89,21 +98,26 @@ void add_families(Threads<Real>& out, const Look& look, const std::vector<Tangen
 constexpr int padding = 16;  // two blocks of 8, as the widest kernel takes them
 
 template <class Real>
+void pad_values(std::initializer_list<std::vector<Real>*> arrays) {
+  for (std::vector<Real>* values : arrays)
+    while (values->size() % padding) values->push_back(values->back());
+}
+
+template <class Real>
 void pad(Threads<Real>& t) {
-  while (t.start.size() % padding) {
-    for (std::vector<Real>* values :
-         {&t.start, &t.span, &t.node, &t.flat, &t.inverse_span, &t.along_x, &t.eta2, &t.eta2_minus_1,
-          &t.surface_exponent, &t.surface_norm, &t.volume_exponent, &t.volume_norm, &t.isotropic})
-      values->push_back(values->back());
-    t.weight.push_back(0);
-  }
-  t.count = int(t.start.size());
+  while (t.weight.size() % padding) t.weight.push_back(0);
+  t.count = int(t.weight.size());
+  pad_values<Real>({&t.start, &t.span, &t.node, &t.flat, &t.inverse_span, &t.along_x, &t.eta2, &t.eta2_minus_1,
+                    &t.surface_exponent, &t.surface_norm, &t.volume_exponent, &t.volume_norm, &t.isotropic});
+  pad_values<Real>({&t.panel_from, &t.panel_to, &t.panel_warp, &t.panel_offset[0], &t.panel_offset[1]});
+  for (Turns<Real>* turns : {&t.own, &t.ends[0], &t.ends[1]})
+    pad_values<Real>({&turns->cosine, &turns->cosine_rest, &turns->sine, &turns->sine_rest});
+  t.panel_span.resize(t.panel_warp.size(), 0);
 }
 
 template <class Real>
 Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
   Threads<Real> threads;
-  for (int family = 0; family < 2; ++family) threads.slope_from[family] = 10, threads.slope_to[family] = -10;
   add_families(threads, look, warp, weft);
   if (threads.start.empty()) throw InputError("the look has no threads: both coverages are 0");
   if (threads.start.size() + padding > most_tangents)
@@ -114,13 +128,6 @@ Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp,
         "pieces");
   for (int k = int(threads.start.size()) - 1; k >= 0; --k) threads.first[threads.along_x[size_t(k)] > 0 ? 0 : 1] = k;
   pad(threads);
-  for (int family = 0; family < 2; ++family) {
-    // |psi| stays a quarter turn away from every sloping offset: tan(pi/2 - largest offset), infinite without slopes.
-    const double largest = std::max(-double(threads.slope_from[family]), double(threads.slope_to[family]));
-    const bool slopes = threads.slope_from[family] <= threads.slope_to[family];
-    threads.clip_free[family] =
-        slopes ? Real(std::tan(std::max(std::numbers::pi / 2 - largest, 0.0))) : std::numeric_limits<Real>::max();
-  }
   const double sigma = look.masking_width_deg * std::numbers::pi / 180;
   threads.masking_exponent = Real(2 / (sigma * sigma));
   threads.gap = Real(std::max(0.0, 1.0 - double(look.warp.coverage) - double(look.weft.coverage)));

@@ -1,191 +1,109 @@
 #pragma once
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "fabric/threads.h"
-#include "math/lane_functions.h"
+#include "fabric/panel_light.h"
 
 // The kernel of threads.h, written once over its vector type: PairLanes or WideLanes over float arrays, double alone
-// for the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out of
-// the other.
+// for the oracle. Included by one source file an instruction set; the unnamed namespace keeps what one compiled out
+// of the other.
 
 namespace sateen {
 
 namespace {
 
-/// How the kernel sees a vector type.
+/// 1 in the second of two blocks: in the block pair where panels end, the flat pieces.
+template <class Real>
+constexpr Real second_block[2] = {0, 1};
+
+/// w.t and w.n_t of a direction on the references of some tangents: those are tilted against them by the offsets in
+/// ThreadView.
 template <class V>
-struct Vector {
-  using Real = float;
-  static constexpr int width = V::width;
-  static V load(const float* p) { return V::load(p); }
-  static void store(float* p, V v) { v.store(p); }
-  /// Eight numbers of a block of 8 tangents, for each of the blocks that are held.
-  static V every_block(const float* p, int) {
-    if constexpr (width == 16)
-      return V::twice(p);
-    else
-      return V::load(p);
-  }
-  /// A pair of numbers, of warp and weft, in the first two lanes.
-  static V pair(float warp, float weft, int) { return V::of(warp, weft, 1, 1); }
-  /// One number for each of the blocks that are held.
-  static V by_block(const float* values) {
-    if constexpr (width == 16)
-      return V::halves(values[0], values[1]);
-    else
-      return V(values[0]);
-  }
-};
-template <>
-struct Vector<double> {
-  using Real = double;
-  static constexpr int width = 1;
-  static double load(const double* p) { return *p; }
-  static void store(double* p, double v) { *p = v; }
-  static double every_block(const double* p, int lane) { return p[lane]; }
-  static double pair(double warp, double weft, int k) { return k == 0 ? warp : weft; }
-  static double by_block(const double* values) { return values[0]; }
+struct OnReference {
+  V along, normal;
 };
 
-/// Blocks of 8 tangents that V takes at once.
-template <class V>
-constexpr int blocks_at_once = Vector<V>::width == 16 ? 2 : 1;
-
-// cos theta below 1e-12 is far below what a unit direction in float can state (6e-8). The floor only keeps end-on
-// threads finite until M, which is 0 or finite there, decides the limit.
-constexpr float smallest_cos2 = 1e-24f;
-constexpr float smallest_projection2 = 1e-30f;
-constexpr double quarter_turn = 1.57079632679489662;
-
-/// atan2(across, along) for along >= 0.
-template <class V>
-V signed_angle(V across, V along) {
-  using Real = typename Vector<V>::Real;
-  const V magnitude = atan_magnitude(across, max(along, V(Real(1e-30f))));
-  return select_less(across, V(Real(0)), V(Real(0)) - magnitude, magnitude);
-}
-
-/// The offsets of both families that can face a direction.
+/// Of the tangents from k on, in the blocks from `block` on: panels have one reference each, flat pieces their own.
 template <class V, class Real>
+OnReference<V> on_reference(const Threads<Real>& t, const Real* along, const Real* normal, int block, int k, V x, V y,
+                            V z) {
+  using Vec = Vector<V>;
+  const int panels = t.panels[0] + t.panels[1];
+  if (block + blocks_at_once<V> <= panels) return {Vec::by_block(along + block), Vec::by_block(normal + block)};
+
+  const V half = V(Real(0.5)), d = select_less(half, Vec::load(&t.along_x[k]), x, y);
+  const V c = Vec::load(&t.own.cosine[k]), s = Vec::load(&t.own.sine[k]);
+  const V across = across_thread(z, d, c, Vec::load(&t.own.cosine_rest[k]), s, Vec::load(&t.own.sine_rest[k]));
+  const OnReference<V> own{fma(d, c, z * s), across};
+  if (block >= panels) return own;
+  const V second = Vec::by_block(second_block<Real>);
+  return {select_less(half, second, own.along, Vec::by_block(along + block)),
+          select_less(half, second, own.normal, Vec::by_block(normal + block))};
+}
+
+/// Offsets that face a direction, of both families.
+template <class Real>
 void facing(const Real (&along)[2], Real z, Real (&from)[2], Real (&to)[2]) {
-  // w.n_t = hypot(d, z) cos(psi + alpha): seen while alpha stays within a quarter turn of -psi.
-  Real psi[16];
-  for (int k = 0; k < 2; k += Vector<V>::width)
-    Vector<V>::store(&psi[k], signed_angle(Vector<V>::pair(-along[0], -along[1], k), V(z)));
   for (int family = 0; family < 2; ++family) {
-    from[family] = psi[family] - Real(quarter_turn);
-    to[family] = psi[family] + Real(quarter_turn);
+    const Real elevation = std::atan2(z, std::abs(along[family]));
+    from[family] = along[family] < 0 ? -elevation : Real(-quarter_turn);
+    to[family] = along[family] > 0 ? elevation : Real(quarter_turn);
   }
 }
 
-/// Fills the view terms of the blocks from `block` on that V takes at once, with their nodes gathered in view.from
-/// ... view.to.
+/// Fills the view terms of the blocks from `block` on that V takes at once, with their nodes gathered in
+/// view.windows, those of loose slopes in view.from ... view.to.
 template <class V, class Real>
 void fill_blocks(const Threads<Real>& t, int block, ThreadView<Real>& view) {
   using Vec = Vector<V>;
-  const Real x = view.wo[0], y = view.wo[1], z = view.wo[2];
-  const V wx = V(x), wy = V(y), wz = V(z), zero = V(Real(0)), half = V(Real(0.5));
+  constexpr int at_once = blocks_at_once<V>;
+  const int panels = t.panels[0] + t.panels[1];
+  const V wx = V(view.wo[0]), wy = V(view.wo[1]), wz = V(view.wo[2]);
+  const V zero = V(Real(0)), half = V(Real(0.5)), one = V(Real(1)), two = V(Real(2));
+  const PanelWindows<Real>& windows = view.windows;
   bool alive = false;
-  for (int k = block * 8; k < (block + blocks_at_once<V>)*8; k += Vec::width) {
-    const V is_warp = Vec::load(&t.along_x[k]);
-    const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
+  for (int k = block * 8; k < (block + at_once) * 8; k += Vec::width) {
+    const V is_warp = Vec::load(&t.along_x[k]), node = Vec::load(&t.node[k]);
+    const V b = select_less(half, is_warp, wy, wx);
     const V scale = select_less(half, is_warp, V(view.scale[0]), V(view.scale[1]));
+    V offset = zero, share = zero;
+    if (block < panels) {
+      const V width = Vec::by_block(windows.seen + block);
+      offset = fma(width, node, Vec::by_block(windows.from + block));
+      share = width * Vec::load(&t.inverse_span[k]);
+    }
+    if (block + at_once > panels) {
+      // Flat pieces have neither start nor span.
+      const V flat = block < panels ? Vec::by_block(second_block<Real>) : one;
+      const V a0 = Vec::load(&t.start[k]), a1 = a0 + Vec::load(&t.span[k]);
+      V from = a0, seen = a1 - a0;
+      if (t.loose_slopes) {
+        from = max(a0, select_less(half, is_warp, V(view.from[0]), V(view.from[1])));
+        seen = max(min(a1, select_less(half, is_warp, V(view.to[0]), V(view.to[1]))) - from, zero);
+        from = select_less(half, Vec::load(&t.flat[k]), zero, min(from, a1));
+      }
+      const V part = fma(seen, Vec::load(&t.inverse_span[k]), Vec::load(&t.flat[k]));
+      offset = select_less(half, flat, fma(seen, node, from), offset);
+      share = select_less(half, flat, part, share);
+    }
+    const V weight = Vec::load(&t.weight[k]) * share;
+    // An offset from an end of its segment may be more than a quarter turn.
+    const V sine = sin_quarter(half * offset), cosine = cos_quarter(half * offset);
+    const V c = fnma(two * sine, sine, one), s = two * sine * cosine;
 
-    const V flat = Vec::load(&t.flat[k]), a0 = Vec::load(&t.start[k]), a1 = a0 + Vec::load(&t.span[k]);
-    const V from = max(a0, select_less(half, is_warp, V(view.from[0]), V(view.from[1])));
-    const V to = min(a1, select_less(half, is_warp, V(view.to[0]), V(view.to[1])));
-    const V seen = max(to - from, zero);
-    const V offset = select_less(half, flat, a0, fma(seen, Vec::load(&t.node[k]), min(from, a1)));
-    const V weight = Vec::load(&t.weight[k]) * fma(seen, Vec::load(&t.inverse_span[k]), flat);
-    const V c = cos_quarter(offset), s = sin_quarter(offset);
-
-    const V normal = max(fnma(d, s, wz * c), zero);
+    const OnReference<V> w = on_reference(t, windows.along, windows.normal, block, k, wx, wy, wz);
+    const V normal = max(fnma(w.along, s, w.normal * c), zero);
     const V cos_r = sqrt(max(fma(normal, normal, b * b), V(Real(smallest_cos2))));
-    const V inverse = V(Real(1)) / cos_r;
+    const V inverse = one / cos_r;
     Vec::store(&view.cos_offset[k], c);
     Vec::store(&view.sin_offset[k], s);
     Vec::store(&view.weight_warp[k], weight * is_warp);
-    Vec::store(&view.weight_weft[k], weight * (V(Real(1)) - is_warp));
-    Vec::store(&view.sin_r[k], fma(d, c, wz * s));
+    Vec::store(&view.weight_weft[k], weight * (one - is_warp));
+    Vec::store(&view.sin_r[k], fma(w.along, c, w.normal * s));
     Vec::store(&view.cos_r[k], cos_r);
     Vec::store(&view.normal_r[k], normal * inverse);
     Vec::store(&view.binormal_r[k], b * inverse);
     Vec::store(&view.projected_r[k], normal * scale);
     alive = alive || sum(normal * weight) > 0;
   }
-  for (int held = block; held < block + blocks_at_once<V>; ++held) {
-    view.alive[held] = alive;
-    if (held >= t.panels[0] + t.panels[1]) continue;
-    const int family = held < t.panels[0] ? 0 : 1;
-    const Real start = t.start[held * 8], end = start + t.span[held * 8];
-    const Real from = std::max(start, view.from[family]), seen = std::min(end, view.to[family]) - from;
-    view.panel_start[held] = from + seen * t.panel_from[held];
-    view.panel_inverse[held] = seen > 0 ? 1 / (seen * (t.panel_to[held] - t.panel_from[held])) : Real(0);
-  }
-}
-
-/// What a light direction has in common for all tangents of a family.
-template <class Real>
-struct FamilyTerms {
-  // Offsets at which the minima in M and P change their argument: m_i = m_r and p_i = p_r. Below them m_r < m_i and
-  // p_r < p_i where `side` is 1, above where it is -1.
-  Real masking_kink[16], projected_kink[16], side[16];
-  Real scale[16];  ///< 1 / hypot(d, z)
-  Real blend[16];  ///< u(psi_d): psi_i and psi_r turn together with the offset, so it belongs to the family
-};
-
-template <class V, class Real>
-void family_terms(const Threads<Real>& t, const ThreadView<Real>& view, Real x, Real y, Real z,
-                  FamilyTerms<Real>& terms) {
-  using Vec = Vector<V>;
-  const V z_i = V(z), z_r = V(view.wo[2]), zero = V(Real(0)), quarter = V(Real(0.25));
-  for (int k = 0; k < 2; k += Vec::width) {
-    const V d_i = Vec::pair(x, y, k), d_r = Vec::pair(view.wo[0], view.wo[1], k);
-    const V b_i = abs(Vec::pair(y, x, k)), b_r = abs(Vec::pair(view.wo[1], view.wo[0], k));
-    const V r_d = Vec::pair(view.across_d[0], view.across_d[1], k);
-    const V r_n = Vec::pair(view.across_n[0], view.across_n[1], k);
-    const V scale = V(Real(1)) / sqrt(max(fma(d_i, d_i, z_i * z_i), V(Real(smallest_projection2))));
-    const V e_d = d_i * scale, e_n = z_i * scale;
-    const V plus_d = e_d + r_d, plus_n = e_n + r_n, minus_d = e_d - r_d, minus_n = e_n - r_n;
-    const V h2 = quarter * fma(plus_d, plus_d, plus_n * plus_n);
-    const V q = quarter * fma(minus_d, minus_d, minus_n * minus_n);
-    Vec::store(&terms.scale[k], scale);
-    Vec::store(&terms.blend[k], exp_negative(V(-t.masking_exponent) * half_angle_squared(q, h2, sqrt(h2))));
-    // cos phi_i = cos phi_r where n_i |b_r| = n_r |b_i|, and both are linear in sine and cosine of the offset.
-    const V side = select_less(d_r * z_i, d_i * z_r, V(Real(1)), V(Real(-1)));
-    Vec::store(&terms.side[k], side);
-    Vec::store(&terms.masking_kink[k], signed_angle(side * (z_i * b_r - z_r * b_i), side * (d_i * b_r - d_r * b_i)));
-    // p is the cosine of psi plus the offset: the middle between the two.
-    Vec::store(&terms.projected_kink[k], signed_angle(zero - plus_d, plus_n));
-  }
-}
-
-/// Where the minima in M and P of the blocks that are held change their argument, as places in the block's panel; 0
-/// where that is outside of the panel.
-template <class Real>
-struct Kinks {
-  Real masking[2] = {0, 0}, projected[2] = {0, 0}, side[2] = {0, 0}, between[2] = {0, 0};
-  bool in_masking = false, in_projected = false;
-};
-
-template <class Real>
-Kinks<Real> kinks_of(const Threads<Real>& t, const ThreadView<Real>& view, const FamilyTerms<Real>& terms, int block,
-                     int held) {
-  Kinks<Real> kinks;
-  const auto inside = [](Real place) { return place > 0 && place < 1 ? place : Real(0); };
-  for (int n = 0; n < held && block + n < t.panels[0] + t.panels[1]; ++n) {
-    const int family = block + n < t.panels[0] ? 0 : 1;
-    const Real start = view.panel_start[block + n], inverse = view.panel_inverse[block + n];
-    kinks.masking[n] = inside((terms.masking_kink[family] - start) * inverse);
-    kinks.projected[n] = inside((terms.projected_kink[family] - start) * inverse);
-    kinks.side[n] = terms.side[family];
-    kinks.between[n] = kinks.masking[n] > kinks.projected[n] ? kinks.side[n] : -kinks.side[n];
-    kinks.in_masking = kinks.in_masking || kinks.masking[n] > 0;
-    kinks.in_projected = kinks.in_projected || kinks.projected[n] > 0;
-  }
-  return kinks;
+  for (int n = 0; n < at_once; ++n) view.alive[block + n] = alive;
 }
 
 /// sign(place - x) as the nodes of a panel have to show it: sign_change() at `place`.
@@ -218,7 +136,8 @@ void prepare_view_in(const Threads<Real>& threads, Real x, Real y, Real z, Threa
     view.across_d[family] = d * view.scale[family];
     view.across_n[family] = z * view.scale[family];
   }
-  facing<V>({x, y}, z, view.from, view.to);
+  if (t.loose_slopes) facing({x, y}, z, view.from, view.to);
+  view_panels<PanelLanes<V>>(t, view);
   for (int block = 0; block * 8 < t.count; block += blocks_at_once<V>) fill_blocks<V>(t, block, view);
 }
 
@@ -230,35 +149,36 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
   ThreadSums<Real> out;
   if (!(z > 0) || !(view_of_wo.wo[2] > 0)) return out;
 
-  const bool fine = !threads.grazing.empty() && (z < Real(grazing_z) || view_of_wo.wo[2] < Real(grazing_z));
+  const Real* wo = view_of_wo.wo;
+  const bool opposite = x * wo[0] + y * wo[1] < 0 && z + wo[2] < Real(opposite_grazing_z);
+  const bool grazes = opposite || z < Real(grazing_z) || wo[2] < Real(grazing_z);
+  const bool fine = grazes && !threads.grazing.empty();
   const Threads<Real>& t = fine ? threads.grazing.front() : threads;
   const int panels = t.panels[0] + t.panels[1];
 
   // Where wi sees less of a sloping segment than wo does, the nodes gather in what both see.
   ThreadView<Real> gathered;
-  const Real along[2] = {x, y};
   const bool other = view_of_wo.threads != &t;
-  bool clipped = other;
-  for (int family = 0; family < 2; ++family) clipped = clipped || std::abs(along[family]) > t.clip_free[family] * z;
+  const bool clipped =
+      other || t.loose_slopes || std::abs(x) > t.clip_free[0] * z || std::abs(y) > t.clip_free[1] * z;
   if (clipped) {
-    std::copy(view_of_wo.wo, view_of_wo.wo + 3, gathered.wo);
-    facing<V>(along, z, gathered.from, gathered.to);
+    std::copy(wo, wo + 3, gathered.wo);
+    std::copy(view_of_wo.scale, view_of_wo.scale + 2, gathered.scale);
+  }
+  if (t.loose_slopes) {
+    Real from[2], to[2];
+    facing({x, y}, z, from, to);
+    facing({wo[0], wo[1]}, wo[2], gathered.from, gathered.to);
     for (int family = 0; family < 2; ++family) {
-      gathered.from[family] = std::max(gathered.from[family], view_of_wo.from[family]);
-      gathered.to[family] = std::min(gathered.to[family], view_of_wo.to[family]);
-      gathered.scale[family] = view_of_wo.scale[family];
+      gathered.from[family] = std::max(gathered.from[family], from[family]);
+      gathered.to[family] = std::min(gathered.to[family], to[family]);
     }
   }
-  const auto regathers = [&](int block) {
-    if (!clipped || other || block >= panels) return other;
-    const int family = block < t.panels[0] ? 0 : 1;
-    const Real start = t.start[block * 8], end = start + t.span[block * 8];
-    return gathered.from[family] > std::max(start, view_of_wo.from[family]) ||
-           gathered.to[family] < std::min(end, view_of_wo.to[family]);
-  };
 
   FamilyTerms<Real> terms;
-  family_terms<V>(t, view_of_wo, x, y, z, terms);
+  family_terms<PanelLanes<V>>(t, view_of_wo, x, y, z, terms);
+  PanelLight<Real> light;
+  light_panels<PanelLanes<V>>(t, view_of_wo, x, y, z, clipped, terms, light, gathered);
   const V wx = V(x), wy = V(y), wz = V(z), zero = V(Real(0)), half = V(Real(0.5)), quarter = V(Real(0.25));
   const V one = V(Real(1)), two = V(Real(2)), fall = V(-t.masking_exponent);
   // Odd blocks have sums of their own in Lanes, so that the bits are those of WideLanes.
@@ -266,26 +186,30 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
   V surface_warp[sums], surface_weft[sums], volume_warp[sums], volume_weft[sums], reweight[sums];
   for (int n = 0; n < sums; ++n)
     surface_warp[n] = surface_weft[n] = volume_warp[n] = volume_weft[n] = reweight[n] = zero;
+  // Of the panels in the blocks that are held.
+  const auto any = [](const Real* values) { return (at_once == 2 ? std::max(values[0], values[1]) : values[0]) > 0; };
   for (int block = 0; block * 8 < t.count; block += at_once) {
-    const bool regather = regathers(block) || (at_once == 2 && regathers(block + 1));
+    bool regather = other || (t.loose_slopes && block + at_once > panels);
     if (!regather && !view_of_wo.alive[block]) continue;
-    if (regather) {
-      fill_blocks<V>(t, block, gathered);
-      if (!gathered.alive[block]) continue;
+    const bool has_panels = block < panels;
+    if (clipped) {
+      if (has_panels) regather = regather || any(gathered.windows.changed + block);
+      if (regather) fill_blocks<V>(t, block, gathered);
+      if (regather && !gathered.alive[block]) continue;
     }
     const ThreadView<Real>& view = regather ? gathered : view_of_wo;
-    const Kinks<Real> kinks = kinks_of(t, view, terms, block, at_once);
-    const V masking_kink = Vec::by_block(kinks.masking), projected_kink = Vec::by_block(kinks.projected);
-    const V side = Vec::by_block(kinks.side);
+    const bool in_masking = has_panels && any(light.masking + block);
+    const bool in_projected = has_panels && any(light.projected + block);
     const int n = sums == 1 ? 0 : block & 1;
     for (int k = block * 8; k < (block + at_once) * 8; k += Vec::width) {
       const V is_warp = Vec::load(&t.along_x[k]);
-      const V d = select_less(half, is_warp, wx, wy), b = select_less(half, is_warp, wy, wx);
+      const V b = select_less(half, is_warp, wy, wx);
       const V c = Vec::load(&view.cos_offset[k]), s = Vec::load(&view.sin_offset[k]);
 
       // Inclination and azimuth of wi on this tangent.
-      const V sin_i = fma(d, c, wz * s);
-      const V normal = max(fnma(d, s, wz * c), zero);
+      const OnReference<V> w = on_reference(t, light.along, light.normal, block, k, wx, wy, wz);
+      const V sin_i = fma(w.along, c, w.normal * s);
+      const V normal = max(fnma(w.along, s, w.normal * c), zero);
       const V cos_i = sqrt(max(fma(normal, normal, b * b), V(Real(smallest_cos2))));
       const V inverse = one / cos_i;
       const V m_i = normal * inverse, b_i = b * inverse;
@@ -299,9 +223,10 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
       const V u = exp_negative(fall * half_angle_squared(q, h2, h));
       const V mm = m_i * m_r;
       V m_least = min(m_i, m_r);
-      V sign_m, sign_p;
-      if (kinks.in_masking) {
-        sign_m = side * sign_at_nodes<V>(t, k % 8, masking_kink);
+      V masking_kink, projected_kink, sign_m, sign_p;
+      if (in_masking) {
+        masking_kink = Vec::by_block(light.masking + block);
+        sign_m = Vec::by_block(light.side + block) * sign_at_nodes<V>(t, k % 8, masking_kink);
         m_least = least(m_i, m_r, masking_kink, sign_m);
       }
       const V masking = max(fma(u, m_least - mm, mm), zero);
@@ -309,16 +234,17 @@ ThreadSums<Real> scatter_in(const Threads<Real>& threads, const ThreadView<Real>
       const V p_r = Vec::load(&view.projected_r[k]);
       const V pp = p_i * p_r;
       V p_least = min(p_i, p_r);
-      if (kinks.in_projected) {
-        sign_p = side * sign_at_nodes<V>(t, k % 8, projected_kink);
+      if (in_projected) {
+        projected_kink = Vec::by_block(light.projected + block);
+        sign_p = Vec::by_block(light.side + block) * sign_at_nodes<V>(t, k % 8, projected_kink);
         p_least = least(p_i, p_r, projected_kink, sign_p);
       }
       const V u_p = select_less(half, is_warp, V(terms.blend[0]), V(terms.blend[1]));
       const V projected = max(fma(u_p, p_least - pp, pp), zero);
       V visible = masking * projected;
-      if (kinks.in_masking && kinks.in_projected) {
+      if (in_masking && in_projected) {
         // The product of both signs is 1 but between the places: not the product of what the nodes show of each.
-        const V between = Vec::by_block(kinks.between) * (sign_m - sign_p);
+        const V between = Vec::by_block(light.between + block) * (sign_m - sign_p);
         const V product = one - between - sign_m * sign_p;
         const V corrected = max(fma(quarter * u * u_p * (m_i - m_r), (p_i - p_r) * product, visible), zero);
         visible = select_less(zero, min(masking_kink, projected_kink), corrected, visible);

@@ -147,33 +147,11 @@ TEST(Quadrature, ErrorStaysSmallOverTheWholeLegalRange) {
 
 struct FloatErrors {
   double worst = 0;
-  long pairs = 0, above_1e3 = 0, off_horizon = 0,
-       above_1e5 = 0;  ///< the last two from 0.6 degrees over the horizon up
+  long off_horizon = 0, above_1e5 = 0;  ///< both from 0.6 degrees over the horizon up
 };
 
-// Largest change of F when both directions are turned by the rounding of a float, 1.2e-7 rad. Where a thread shows
-// the view nothing but a ten-thousandth of a degree of itself, that is more than 1e-3 of F, and no float can do
-// better.
-double condition(const Threads<double>& oracle, const Vec3d& wo, const Vec3d& wi, const Look& look, double truth) {
-  constexpr double rounding = 1.2e-7;
-  const auto view = std::make_unique<ThreadView<double>>();
-  double change = 0;
-  for (const double x : {-rounding, rounding})
-    for (const double y : {-rounding, rounding})
-      for (const double side : {-1.0, 1.0}) {
-        prepare_view<double>(oracle, wo.x + x, wo.y + y, std::max(wo.z + x, 1e-9), *view);
-        const double f =
-            sums(scatter<double>(oracle, *view, wi.x + side * x, wi.y + side * y, std::max(wi.z + side * x, 1e-9)))
-                .total(look);
-        change = std::max(change, std::abs(f - truth));
-      }
-  return change;
-}
-
-// Relative error below 1e-3, but for `slack` of the view's peak and, for looks that nobody would make, eight times
-// the condition above. What no float can state, below 1e-36, does not count.
-void compare_float(const Look& look, Random& random, int views, int lights, double slack, bool conditioned,
-                   FloatErrors& errors) {
+// Relative error below 1e-3 of every pair. What no float can state, below 1e-36, does not count.
+void compare_float(const Look& look, Random& random, int views, int lights, FloatErrors& errors) {
   const Curves curves = curves_of(look);
   const Threads<float> threads = compile_threads<float>(look, curves.warp, curves.weft);
   const Threads<double> oracle = compile_threads<double>(look, curves.warp, curves.weft);
@@ -203,50 +181,44 @@ void compare_float(const Look& look, Random& random, int views, int lights, doub
       if (!(truth > 1e-6 * peak) || truth < 1e-36) continue;
       const double error = std::abs(found - truth) / truth;
       errors.worst = std::max(errors.worst, error);
-      ++errors.pairs;
       errors.off_horizon += off_horizon;
       errors.above_1e5 += off_horizon && error > 1e-5;
-      errors.above_1e3 += error > 1e-3;
-      double allowed = 1e-3 * truth + slack * peak;
-      if (conditioned && error > 1e-3) allowed += 8 * condition(oracle, o, w, look, truth);
-      EXPECT_LT(std::abs(found - truth), allowed)
-          << look.name << ", view " << wo << ": " << found << " for " << truth << ", peak " << peak;
+      EXPECT_LT(std::abs(found - truth), 1e-3 * truth)
+          << look.name << ", view " << wo << ", light (" << w.x << " " << w.y << " " << w.z << "): " << found
+          << " for " << truth << ", peak " << peak;
     }
   }
 }
 
-// Where nothing but the last hundredth of a degree of a segment faces wi, its cosine is a difference that a float
-// loses digits in: there alone, in at most one pair of 100,000, the error may pass 1e-3 of F, and never 1e-7 of the
-// peak.
+// Every pair, those at the horizon too, agrees to 1e-3 of its own value, and 99.99 of 100 to 1e-5.
 TEST(FloatKernel, AgreesWithTheSameKernelInDouble) {
   Random random{13};
   FloatErrors all;
   for (const Look& look : all_looks()) {
     FloatErrors errors;
-    compare_float(look, random, long_tests() ? 2000 : 60, 200, 1e-7, false, errors);
+    compare_float(look, random, long_tests() ? 2000 : 60, 200, errors);
     printf("float against double, %-32s worst %.2e, above 1e-5: %.4f %%\n", look.name.c_str(), errors.worst,
            100.0 * double(errors.above_1e5) / double(errors.off_horizon));
-    all.pairs += errors.pairs;
     all.off_horizon += errors.off_horizon;
     all.above_1e5 += errors.above_1e5;
-    all.above_1e3 += errors.above_1e3;
   }
-  EXPECT_LE(double(all.above_1e3), 1e-5 * double(all.pairs));
   EXPECT_LT(double(all.above_1e5), 1e-4 * double(all.off_horizon));
   printf("float against double: %.4f %% of %ld pairs above 1e-5\n",
          100.0 * double(all.above_1e5) / double(all.off_horizon), all.off_horizon);
 }
 
+// Lobes of half a degree ask for angles to a few millionths of themselves: here the second bar is 99.9 of 100.
 TEST(FloatKernel, AgreesWithTheSameKernelInDoubleForRandomLooks) {
   Random random{14};
   FloatErrors errors;
   for (int i = 0; i < (long_tests() ? 2000 : 100); ++i) {
     const Look look = random_look(random, i % 4 == 0);
     try {
-      compare_float(look, random, 10, 60, 1e-5, true, errors);
+      compare_float(look, random, 10, 60, errors);
     } catch (const InputError&) {  // more tangents than possible: said so by the compiler of the look
     }
   }
+  EXPECT_LT(double(errors.above_1e5), 1e-3 * double(errors.off_horizon));
   printf("float against double, random looks: worst %.2e, above 1e-5: %.4f %%\n", errors.worst,
          100.0 * double(errors.above_1e5) / double(errors.off_horizon));
 }

@@ -102,8 +102,6 @@ TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMean) {
 }
 
 // Cloth that nobody has made yet: tilts of any kind, coverage and masking of any kind, lobes of 1.5 to 30 degrees.
-// The bar is 10 for 97 of 100 looks: the ridge of a weft lobe below 2 degrees that is tilted by 64 does not stay put
-// from view to view by turning a slice, and shows 139 times the mean where wo and wi graze the cloth.
 TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMeanForRandomLooks) {
   auto view = std::make_unique<FabricView>();
   Random random{24};
@@ -132,7 +130,7 @@ TEST(DirectionTable, LargestWeightStaysBelowTenTimesTheMeanForRandomLooks) {
     worst = std::max(worst, largest);
     ++count;
   }
-  EXPECT_LE(above_ten, 0.03 * wanted);
+  EXPECT_EQ(above_ten, 0);
   printf("table of %d random looks: largest weight %.2f times the mean, %d above 10\n", wanted, worst, above_ten);
 }
 
