@@ -81,8 +81,10 @@ void add_camera(Command& c, PictureFlags& f) {
 void add_quality(Command& c, PictureFlags& f) {
   StopRules& stop = f.render.stop;
   c.group("Quality (whichever is met first stops)");
-  c.integer("-s,--spp", "N", stop.spp, 1, 1 << 30,
-            "samples a pixel, with --adaptive their mean (default: 64, adaptive, when no other rule is given)");
+  c.integer(
+      "-s,--spp", "N", stop.spp, 1, 1 << 30,
+      fmt::format("samples a pixel, with --adaptive their mean (default: {}, adaptive, when no other rule is given)",
+                  default_samples));
   c.number("--error", "E", stop.error, 1e-6, 100,
            "relative error of the picture, such as 0.02; its upper bound counts");
   c.text("--quality", "NAME", f.quality,
@@ -180,13 +182,13 @@ void add_picture_flags(Command& command, PictureFlags& flags) {
   add_output(command, flags);
 }
 
-void settle_picture_flags(const Command& command, PictureFlags& f, int default_spp) {
+void settle_picture_flags(const Command& command, PictureFlags& f, int samples) {
   voice.verbosity = f.quiet ? Verbosity::quiet : f.verbose ? Verbosity::detailed : Verbosity::normal;
   StopRules& stop = f.render.stop;
   settle_stage_flags(command, f.stage, f.scene.stage);
   settle_quality(f.quality, f.render);
   const bool no_rule = stop.spp == 0 && stop.error == 0 && stop.seconds == 0;
-  if (no_rule) stop.spp = default_spp;
+  if (no_rule) stop.spp = samples;
   // The error does not look at alpha, where alone a catcher's shadow is.
   const bool shadow_in_alpha = f.stage.ground == "catcher" && f.scene.backdrop == Backdrop::none;
   f.render.adaptive =

@@ -36,9 +36,13 @@ void add_picture_flags(Command& command, PictureFlags& flags);
 /// Flags of what the renderer approximates (render/approximations.h), in the group that is open.
 void add_approximation_flags(Command& command, Approximations& to);
 
+/// Samples a pixel, dealt out by error, where no stop rule was given: the default picture ends at an error of about
+/// 4 %; the plan works towards 3 (default_plan_error).
+inline constexpr int default_samples = 32;
+
 /// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress,
-/// voice. `default_spp` is what is rendered when no stop rule was given.
-void settle_picture_flags(const Command& command, PictureFlags& flags, int default_spp);
+/// voice. `samples` is what is rendered when no stop rule was given.
+void settle_picture_flags(const Command& command, PictureFlags& flags, int samples = default_samples);
 
 /// InputError where the sums of the picture's pixels do not fit into this machine's memory.
 void check_memory(const PictureFlags& flags);

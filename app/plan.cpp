@@ -26,8 +26,7 @@ int run_plan(const std::vector<std::string>& words) {
   command.example("sateen plan -m dress.obj -l ivory_duchess_satin --error 0.02", "for an error of 2 %");
   command.example("sateen plan --effects auto,-gaps --json", "as JSON, with one effect switched off");
   if (!command.parse(words)) return done;
-  constexpr int default_spp = 64;
-  settle_picture_flags(command, flags, default_spp);
+  settle_picture_flags(command, flags);
   for (const std::string& output : flags.outputs) check_picture_path(output, false);
   if (!flags.stats.empty()) check_can_write(flags.stats);
   const Assembly assembly = assemble_picture(flags, "plan " + shell_line(words));

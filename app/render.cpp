@@ -143,8 +143,7 @@ bool read_render_flags(const std::vector<std::string>& words, RenderFlags& flags
   add_going_on(command, flags);
   describe(command);
   if (!command.parse(words)) return false;
-  constexpr int default_spp = 64;
-  settle_picture_flags(command, flags.picture, default_spp);
+  settle_picture_flags(command, flags.picture);
   flags.adaptive_given = command.given("--adaptive");
   PictureFlags& p = flags.picture;
   if (p.outputs.empty()) p.outputs = {"sateen.png", "sateen.exr"};

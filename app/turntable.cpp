@@ -186,8 +186,7 @@ int run_turntable(const std::vector<std::string>& words) {
                   "[--turn object|camera|light] [-n N] [--look NAME] [--mesh FILE] -o NAME.####.png [flags]");
   describe(command, flags);
   if (!command.parse(words)) return done;
-  constexpr int default_spp = 64;
-  settle_picture_flags(command, flags.picture, default_spp);
+  settle_picture_flags(command, flags.picture);
   const std::vector<int> numbers =
       parse_frames(flags.frames.empty() ? fmt::format("1-{}", flags.count) : flags.frames);
   check_names(flags, numbers);

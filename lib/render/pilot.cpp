@@ -39,8 +39,9 @@ StrategyChoice choose_strategy(const Scene& scene, const LightSettings& light, s
   PixelGrid grid;
   const int all_samples = grid.samples;
   grid.samples = first_look;
-  for (const Strategy strategy :
-       {Strategy::mis_compensated, Strategy::resampled, Strategy::environment, Strategy::table}) {
+  // All of them draw from the map. What does not may look quiet because no sample of the pilot met the sun; and under a
+  // map without lights mis-compensated is the table alone.
+  for (const Strategy strategy : {Strategy::mis_compensated, Strategy::resampled, Strategy::environment}) {
     Attempt attempt{light};
     attempt.light.strategy = strategy;
     attempt.light.bounces = 0;

@@ -23,7 +23,7 @@ struct StrategyChoice {
   std::vector<StrategyTrial> trials;
 };
 
-/// No strategy wins under every light (docs/numbers.md). Tries four on some thousand pixels spread over the picture,
+/// No strategy wins under every light (docs/numbers.md). Tries three on some thousand pixels spread over the picture,
 /// direct light alone, and takes the one with the least error at equal time; mis-compensated stays unless another is
 /// better by a tenth, more than the pilot's own noise. Time is counted in rays and proposals at measured costs, never
 /// by a clock: the same scene gives the same choice on every machine and any number of threads, and never by the
