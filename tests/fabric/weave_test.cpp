@@ -79,8 +79,9 @@ TEST(Yarns, AreAsWideAsTheCoverageOfTheirPlaceAsks) {
     look.warp.coverage = 0.35f;
     look.weft.coverage = 0.25f;
     const Weave weave = compile_weave(look);
-    for (const auto& [warp, weft] :
+    for (const auto& covered :
          {std::pair(0.35, 0.25), {0.1, 0.2}, {0.6, 0.4}, {0.0, 0.5}, {0.9, 0.6}, {0.0, 0.0}}) {
+      const double warp = covered.first, weft = covered.second;
       const auto share = shares_of(weave, [&](double x, double y) {
         const YarnPlace place = yarn_at(weave, {warp, weft}, x, y);
         EXPECT_EQ(place.light, 1);
