@@ -55,23 +55,38 @@ double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, i
   return count > 0 ? sum / count : 0;
 }
 
-double sample_price(const StudyResult& result, int scene, Strategy strategy) {
-  std::vector<double> prices;
+namespace {
+/// Median over the seeds; 0 where so many samples were not measured.
+double run_time(const StudyResult& result, int scene, Strategy strategy, int samples) {
+  std::vector<double> times;
   for (const StudyRun& run : result.runs)
-    if (run.scene == scene && run.strategy == strategy) prices.push_back(run.cpu_seconds / run.samples);
-  if (prices.empty()) return 0;
-  std::sort(prices.begin(), prices.end());
-  const size_t n = prices.size();
-  return n % 2 == 1 ? prices[n / 2] : (prices[n / 2 - 1] + prices[n / 2]) / 2;
+    if (run.scene == scene && run.strategy == strategy && run.samples == samples) times.push_back(run.cpu_seconds);
+  if (times.empty()) return 0;
+  std::sort(times.begin(), times.end());
+  const size_t n = times.size();
+  return n % 2 == 1 ? times[n / 2] : (times[n / 2 - 1] + times[n / 2]) / 2;
+}
+}  // namespace
+
+double samples_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds) {
+  const std::set<int> numbers = measured_samples(result, scene, strategy);
+  const auto time = [&](int samples) { return run_time(result, scene, strategy, samples); };
+  if (numbers.empty()) return 0;
+  if (numbers.size() == 1)
+    return time(*numbers.begin()) > 0 ? *numbers.begin() * cpu_seconds / time(*numbers.begin()) : 0;
+  auto upper = std::find_if(std::next(numbers.begin()), numbers.end(), [&](int n) { return time(n) >= cpu_seconds; });
+  if (upper == numbers.end()) --upper;
+  const int high = *upper, low = *std::prev(upper);
+  if (!(time(low) > 0) || !(time(high) > time(low))) return 0;
+  return low * std::pow(double(high) / low, std::log(cpu_seconds / time(low)) / std::log(time(high) / time(low)));
 }
 
 double mse_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds, Measure measure,
                    int without) {
-  const double price = sample_price(result, scene, strategy);
+  const double wanted = samples_at_time(result, scene, strategy, cpu_seconds);
   const std::set<int> numbers = measured_samples(result, scene, strategy);
-  if (price <= 0 || numbers.size() < 2) return 0;
+  if (!(wanted > 0) || numbers.size() < 2) return 0;
   // The two measured numbers about the samples that the time buys; a little beyond the last is still told by them.
-  const double wanted = cpu_seconds / price;
   auto upper = numbers.lower_bound(int(std::ceil(wanted)));
   if (upper == numbers.end()) --upper;
   if (upper == numbers.begin()) ++upper;
@@ -83,14 +98,13 @@ double mse_at_time(const StudyResult& result, int scene, Strategy strategy, doub
 }
 
 double common_time(const StudyResult& result, int scene) {
-  return sample_price(result, scene, Strategy::mis_compensated) * result.settings.samples;
+  return run_time(result, scene, Strategy::mis_compensated, result.settings.samples);
 }
 
 int missing_samples(const StudyResult& result, int scene, Strategy strategy) {
   const std::set<int> numbers = measured_samples(result, scene, strategy);
-  const double price = sample_price(result, scene, strategy);
-  if (numbers.empty() || price <= 0) return 0;
-  const double wanted = common_time(result, scene) / price;
+  const double wanted = samples_at_time(result, scene, strategy, common_time(result, scene));
+  if (!(wanted > 0)) return 0;
   if (wanted > *numbers.rbegin() || numbers.size() < 2) return 2 * *numbers.rbegin();
   if (wanted < *numbers.begin() && *numbers.begin() > 1) return *numbers.begin() / 2;
   return 0;

@@ -18,8 +18,10 @@ struct CurvePoint {
 };
 std::vector<CurvePoint> study_curve(const StudyResult& result, int scene, Strategy strategy, Measure measure);
 
-/// CPU-seconds a sample: median over all runs of the strategy in the scene; 0 where there are none.
-double sample_price(const StudyResult& result, int scene, Strategy strategy);
+/// Samples that the strategy has taken after so many CPU-seconds, between the numbers that were measured (median over
+/// the seeds) or beyond them. Samples dealt out by error grow dearer with their number, as they go to cloth and
+/// folds: no price a sample would do. 0 where nothing was measured or times do not grow.
+double samples_at_time(const StudyResult& result, int scene, Strategy strategy, double cpu_seconds);
 
 /// MSE at a number of samples: mean over the seeds, but for seed `without`. 0 where it was not measured.
 double mse_at_samples(const StudyResult& result, int scene, Strategy strategy, int samples, Measure measure,

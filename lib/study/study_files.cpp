@@ -57,7 +57,7 @@ std::string study_json(const StudyResult& result, const std::string& version, co
         const Ratio ratio = equal_time_ratio(result, i, result.ours, strategy, Measure::relative);
         if (!ratio.known) continue;
         w.open_object().member("strategy", name);
-        w.member("samples", common_time(result, i) / sample_price(result, i, strategy));
+        w.member("samples", samples_at_time(result, i, strategy, common_time(result, i)));
         write_interval(w, "ours_over_this", ratio.interval);
         const Ratio absolute = equal_time_ratio(result, i, result.ours, strategy, Measure::absolute);
         write_interval(w, "ours_over_this_absolute_mse", absolute.interval);

@@ -56,6 +56,16 @@ TEST(StudyAnalysis, EqualTimeGivesTheCheapStrategyMoreSamples) {
   EXPECT_FALSE(equal_time_ratio(study, 0, Strategy::mis, Strategy::uniform, Measure::relative).known);
 }
 
+TEST(StudyAnalysis, SamplesThatGrowDearerBuyLess) {
+  StudyResult study = made_study(plain, {"overcast"});
+  // Twice the samples of uniform now take four times as long: 4 samples 1 second, 16 samples 16, 32 samples 64.
+  for (StudyRun& run : study.runs)
+    if (run.strategy == Strategy::uniform) run.cpu_seconds = double(run.samples * run.samples) / 16;
+  EXPECT_NEAR(samples_at_time(study, 0, Strategy::uniform, 32), std::sqrt(512.0), 1e-9);
+  const Ratio ratio = equal_time_ratio(study, 0, Strategy::mis_compensated, Strategy::uniform, Measure::relative);
+  EXPECT_NEAR(ratio.interval.value, 0.01 / 16 * std::sqrt(512.0), 1e-9);
+}
+
 TEST(StudyAnalysis, ToldWhichSamplesAreMissingAStrategyIsKnownAtTheCommonTime) {
   // The common time is 32 seconds; numbers of samples from 4 to 64 cost one strategy 2 seconds at most, the other 640
   // at least.
