@@ -11,13 +11,13 @@ out=docs/pictures
 mkdir -p "$out"
 
 picture() {  # picture NAME [flags]
-  "$sateen" render -q --progress none --bounces 2 -o "$out/$1.jpg" "${@:2}"
+  "$sateen" render -q --progress none -o "$out/$1.jpg" "${@:2}"
   echo "$out/$1.jpg"
 }
 
-small=(-r 320 180 -s 96 --adaptive)
+small=(-r 320 180 -s 64 --adaptive)
 
-hero() { picture hero -s 96 --adaptive; }
+hero() { picture hero -s 64 --adaptive; }
 
 looks() {
   for file in looks/*.json; do
@@ -51,7 +51,7 @@ garments() {
 turntable() {
   local frames
   frames=$(mktemp -d)
-  "$sateen" turntable -q --progress none --bounces 2 -l shot_taffeta -n 6 -r 270 180 \
+  "$sateen" turntable -q --progress none -l shot_taffeta -n 6 -r 270 180 \
     -s 64 --adaptive -o "$frames/f.####.png" --sheet "$out/turntable.jpg"
   rm -r "$frames"
   echo "$out/turntable.jpg"
