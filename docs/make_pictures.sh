@@ -15,9 +15,9 @@ picture() {  # picture NAME [flags]
   echo "$out/$1.jpg"
 }
 
-small=(-r 320 180 -s 64 --adaptive)
+small=(-r 320 180 -s 96 --adaptive)
 
-hero() { picture hero -s 64 --adaptive; }
+hero() { picture hero -s 96 --adaptive; }
 
 looks() {
   for file in looks/*.json; do
