@@ -239,8 +239,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   scene.mesh = std::move(built.mesh);
   scene.rays = std::move(built.rays);
   scene.camera = built.camera;
-  scene.filter = settings.approximations.filter == FilterSettings() ? default_filter()
-                                                                    : compile_filter(settings.approximations.filter);
+  scene.filter = compile_filter(settings.approximations.filter);
   scene.environment = environment.get();
   scene.backdrop = settings.backdrop;
   scene.backdrop_color = settings.backdrop_color;
@@ -249,7 +248,6 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
     report.warnings.push_back(settings.environment + ": " + notice);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
   set_stage(scene, settings.stage, settings.threads);
-  renew_openness(scene);
   return scene;
 }
 

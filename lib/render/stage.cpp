@@ -27,6 +27,7 @@ void set_stage(Scene& scene, const StageSettings& settings, int threads) {
   scene.shutter = shutter_of(*scene.mesh, double(settings.shutter_deg), false);
   if (scene.backdrop == Backdrop::blurred && !scene.blurred)
     scene.blurred = blur_environment(scene.environment, settings.backdrop_blur_deg, threads);
+  renew_openness(scene);
 }
 
 std::string ground_text(const StageSettings& settings) {

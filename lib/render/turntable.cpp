@@ -75,8 +75,12 @@ void pose_turntable(Scene& scene, const TurntableStart& start, double angle_deg)
   camera.up = turned(camera.up, walk);
   camera.forward = turned(camera.forward, walk);
   scene.camera = walk == 0 ? start.camera : camera;
-  // The wall stays behind the object as the camera sees it.
-  if (scene.ground) scene.ground->away = walk == 0 ? start.away : turned(start.away, walk);
+  // The wall stays behind the object as the camera sees it; a frame knows nothing of where it stood in others.
+  const Vec3 away = walk == 0 ? start.away : turned(start.away, walk);
+  if (scene.ground && scene.ground->away != away) {
+    scene.ground->away = away;
+    if (solid_ground(scene)) renew_openness(scene);
+  }
   set_rotation(scene.environment, start.light_rotation + (start.turn == Turn::camera ? 0 : angle));
 }
 

@@ -82,7 +82,8 @@ std::string filter_text(const FilterSettings& settings) {
   return fmt::format("{}:{}", filter_names()[size_t(settings.shape)], settings.radius);
 }
 
-std::shared_ptr<const PixelFilter> compile_filter(const FilterSettings& settings) {
+namespace {
+std::shared_ptr<const PixelFilter> invert(const FilterSettings& settings) {
   constexpr int fine = 1 << 16;
   const double radius = double(settings.radius);
   std::vector<double> integral(fine + 1, 0.0);
@@ -100,10 +101,11 @@ std::shared_ptr<const PixelFilter> compile_filter(const FilterSettings& settings
   }
   return filter;
 }
+}  // namespace
 
-const std::shared_ptr<const PixelFilter>& default_filter() {
-  static const std::shared_ptr<const PixelFilter> filter = compile_filter({});
-  return filter;
+std::shared_ptr<const PixelFilter> compile_filter(const FilterSettings& settings) {
+  static const std::shared_ptr<const PixelFilter> usual = invert({});
+  return settings == FilterSettings() ? usual : invert(settings);
 }
 
 Vec2 sample_filter(const PixelFilter& filter, const std::array<double, 2>& u) {

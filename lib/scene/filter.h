@@ -37,8 +37,7 @@ struct PixelFilter {
   static constexpr int steps = 1024;
   std::array<float, steps + 1> inverse{};
 };
-std::shared_ptr<const PixelFilter> compile_filter(const FilterSettings& settings);
-const std::shared_ptr<const PixelFilter>& default_filter();  ///< of FilterSettings(), made once
+std::shared_ptr<const PixelFilter> compile_filter(const FilterSettings& settings = {});  ///< the usual is made once
 
 /// Offset from the pixel's centre in pixels, each coordinate within the radius. `u` in [0, 1).
 Vec2 sample_filter(const PixelFilter& filter, const std::array<double, 2>& u);

@@ -19,44 +19,37 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ x >> 32;
 }
 
-float sign_of(float x) {
-  return std::copysign(1.0f, x);
+/// Where the octahedron's lower half lies in the net for a place of the upper one, and back.
+Vec2 folded(float x, float y) {
+  return {std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y)};
 }
 
 std::size_t net_cell(const Vec3& d) {
   const float scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-  float x = d.x * scale, y = d.y * scale;
-  if (d.z < 0) {
-    const float folded = (1 - std::abs(y)) * sign_of(x);
-    y = (1 - std::abs(x)) * sign_of(y);
-    x = folded;
-  }
+  const Vec2 place = d.z < 0 ? folded(d.x * scale, d.y * scale) : Vec2(d.x * scale, d.y * scale);
   const auto index = [](float v) { return std::size_t(std::min(int((v * 0.5f + 0.5f) * net_side), net_side - 1)); };
-  return index(y) * net_side + index(x);
+  return index(place.y) * net_side + index(place.x);
 }
 
 /// The middle of a cell.
 Vec3 net_direction(int column, int row) {
-  float x = (float(column) + 0.5f) * (2.0f / net_side) - 1, y = (float(row) + 0.5f) * (2.0f / net_side) - 1;
-  const float z = 1 - std::abs(x) - std::abs(y);
-  if (z < 0) {
-    const float folded = (1 - std::abs(y)) * sign_of(x);
-    y = (1 - std::abs(x)) * sign_of(y);
-    x = folded;
-  }
-  return normalize(Vec3(x, y, z));
+  const Vec2 place((float(column) + 0.5f) * (2.0f / net_side) - 1, (float(row) + 0.5f) * (2.0f / net_side) - 1);
+  const float z = 1 - std::abs(place.x) - std::abs(place.y);
+  const Vec2 level = z < 0 ? folded(place.x, place.y) : place;
+  return normalize(Vec3(level.x, level.y, z));
 }
 
 struct QuadPlace {
   Vec3 middle, normal;  ///< normal unit, or 0 where the quad has no area
+  double area;
 };
 QuadPlace quad_place(const Mesh& mesh, std::size_t quad) {
   const std::array<std::uint32_t, 4>& q = mesh.quads[quad];
   const Vec3 &a = mesh.positions[q[0]], &b = mesh.positions[q[1]], &c = mesh.positions[q[2]],
              &d = mesh.positions[q[3]];
-  const Vec3d area = Vec3d(c - a) % Vec3d(d - b);
-  const double size = area.length();
-  return {a * 0.25f + b * 0.25f + c * 0.25f + d * 0.25f, size > 0 ? Vec3(area / size) : Vec3(0)};
+  const Vec3d across = Vec3d(c - a) % Vec3d(d - b);
+  const double size = across.length();
+  return {a * 0.25f + b * 0.25f + c * 0.25f + d * 0.25f, size > 0 ? Vec3(across / size) : Vec3(0), size / 2};
 }
 
 /// The middle of a quad as a place to start from, turned to face the way that is asked for.
@@ -128,14 +121,10 @@ std::size_t Openness::slot(std::uint64_t key) const {
 Openness::Openness(const Mesh& mesh) : places_(slots) {
   const std::size_t stride = mesh.quads.size() / most_quads + 1;
   double area = 0;
-  for (std::size_t i = 0; i < mesh.quads.size(); i += stride) {
-    const std::array<std::uint32_t, 4>& q = mesh.quads[i];
-    const Vec3d ac(mesh.positions[q[2]] - mesh.positions[q[0]]), bd(mesh.positions[q[3]] - mesh.positions[q[1]]);
-    area += (ac % bd).length() / 2 * double(stride);
-  }
+  for (std::size_t i = 0; i < mesh.quads.size(); i += stride) area += quad_place(mesh, i).area * double(stride);
   middle_ = mesh.bounds_min * 0.5f + mesh.bounds_max * 0.5f;
   const double unit = std::sqrt(area / cubes);
-  if (!(unit > 0) || !std::isfinite(float(1 / unit))) return;  // every place is one and the same
+  if (!(unit > 0) || !std::isfinite(float(1 / unit))) return;  // nothing is known of any place
   cubes_per_unit_ = float(1 / unit);
   std::size_t used = 0;
   for (std::size_t i = 0; i < mesh.quads.size(); i += stride) {

@@ -35,7 +35,7 @@ struct Scene {
   std::optional<Fabric> back;  ///< of the cloth; empty: the same as the front
   Environment environment;
   Camera camera;
-  std::shared_ptr<const PixelFilter> filter = default_filter();
+  std::shared_ptr<const PixelFilter> filter = compile_filter();
   Backdrop backdrop = Backdrop::none;
   Color backdrop_color{0, 0, 0};      ///< working space
   std::optional<BlurredMap> blurred;  ///< for Backdrop::blurred alone

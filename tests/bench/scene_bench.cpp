@@ -127,7 +127,7 @@ void rays() {
       render_all();
       scratch->counts.log = nullptr;
       for (const SampleId& id : ids) {
-        const Vec2 at = sample_filter(*default_filter(),
+        const Vec2 at = sample_filter(*compile_filter(),
                                       draw2(pixel_sequence(1, id.x, id.y, id.replicate), Dimension::film, id.index));
         camera.push_back(scene.camera.ray(float(id.x) + 0.5f + at.x, float(id.y) + 0.5f + at.y));
       }

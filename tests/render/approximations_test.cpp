@@ -104,7 +104,7 @@ TEST(Approximations, ChangeTheSceneThatIsAssembledAndRebuiltAlike) {
 
   EXPECT_EQ(scene_of(with("--filter", "box")).filter->inverse.back(), 0.5f);
   EXPECT_EQ(rebuilt("--filter", "box").filter->inverse, compile_filter({FilterShape::box, 0.5f})->inverse);
-  EXPECT_EQ(usual.filter, default_filter());
+  EXPECT_EQ(usual.filter, compile_filter());
 }
 
 }  // namespace

@@ -77,6 +77,45 @@ TEST(TurntablePose, ACameraThatWalksLeavesTheLightAndATurningLightLeavesTheCamer
   EXPECT_DOUBLE_EQ(scene.environment.rotation_turns, 0.25);
 }
 
+TEST(TurntablePose, AFrameKnowsNothingOfWhereTheWallStoodInOthers) {
+  const auto stage = [](TurntableStart& start) {
+    Scene scene;
+    scene.mesh = std::make_shared<const Mesh>(subdivide(built_in_shape("sphere"), 2));
+    scene.rays = std::make_shared<const RayTracer>(*scene.mesh, 1);
+    scene.environment = numbered_map();
+    scene.camera = frame_points(scene.mesh->positions, CameraSettings(), 160, 90);
+    start = start_turntable(scene, CameraSettings(), Turn::camera);
+    StageSettings settings;
+    settings.ground.emplace().kind = GroundKind::cyclorama;
+    set_turning_stage(scene, start, settings);
+    return scene;
+  };
+  const auto open_at = [](const Scene& scene, std::vector<OpenDirections>& rows) {
+    for (size_t quad = 0; quad < scene.mesh->quads.size(); quad += 5) {
+      const SurfacePoint point = surface_point(*scene.mesh, {0, std::uint32_t(quad), 0.3f, 0.3f});
+      if (const OpenDirections* open = scene.openness->find(scene, point.position, point.geometric_normal))
+        rows.push_back(*open);
+    }
+  };
+  TurntableStart start, other_start;
+  Scene scene = stage(start), other = stage(other_start);
+  std::vector<OpenDirections> before, after, alone;
+  pose_turntable(scene, start, 0);
+  open_at(scene, before);
+  pose_turntable(scene, start, 90);
+  open_at(scene, after);
+  pose_turntable(other, other_start, 90);
+  open_at(other, alone);
+  ASSERT_GT(alone.size(), 50u);
+  ASSERT_EQ(after.size(), alone.size());
+  size_t moved = 0;
+  for (size_t i = 0; i < alone.size(); ++i) {
+    EXPECT_EQ(after[i].halves, alone[i].halves) << i;
+    moved += before[i].halves != after[i].halves;
+  }
+  EXPECT_GT(moved, 0u) << "the wall takes part in what is open";
+}
+
 TEST(TurntablePose, TheMeshStaysInsideThePictureAtEveryAngleAndDistanceIsConstant) {
   Scene scene = swatch_scene();
   const TurntableStart start = start_turntable(scene, CameraSettings(), Turn::object);

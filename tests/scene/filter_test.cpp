@@ -26,8 +26,8 @@ TEST(Filter, SamplesAreDistributedAsBlackmanHarris) {
   double largest = 0;
   for (int i = 0; i < many; ++i) {
     const double u = (i + 0.5) / many;
-    largest = std::max(largest, std::abs(share_below(double(sample_filter(*default_filter(), {u, 0.5}).x)) - u));
-    largest = std::max(largest, std::abs(share_below(double(sample_filter(*default_filter(), {0.5, u}).y)) - u));
+    largest = std::max(largest, std::abs(share_below(double(sample_filter(*compile_filter(), {u, 0.5}).x)) - u));
+    largest = std::max(largest, std::abs(share_below(double(sample_filter(*compile_filter(), {0.5, u}).y)) - u));
   }
   EXPECT_LT(largest, 5e-4);
 }
@@ -36,7 +36,7 @@ TEST(Filter, HistogramFollowsTheCurve) {
   constexpr int bins = 30;
   std::vector<double> counts(bins);
   for (int i = 0; i < many; ++i)
-    counts[size_t((double(sample_filter(*default_filter(), {(i + 0.5) / many, 0.5}).x) + 1.5) / 3 * bins)] +=
+    counts[size_t((double(sample_filter(*compile_filter(), {(i + 0.5) / many, 0.5}).x) + 1.5) / 3 * bins)] +=
         1.0 / many;
   for (int b = 0; b < bins; ++b) {
     const double expected = share_below(-1.5 + 3.0 * (b + 1) / bins) - share_below(-1.5 + 3.0 * b / bins);
@@ -48,8 +48,8 @@ TEST(Filter, IsCentredSymmetricAndAsWideAsItsCurve) {
   double sum = 0, squares = 0, variance = 0;
   for (int i = 0; i < many; ++i) {
     const double u = (i + 0.5) / many;
-    const auto x = double(sample_filter(*default_filter(), {u, 0}).x);
-    EXPECT_NEAR(x, -double(sample_filter(*default_filter(), {1 - u, 0}).x), 2e-5) << u;
+    const auto x = double(sample_filter(*compile_filter(), {u, 0}).x);
+    EXPECT_NEAR(x, -double(sample_filter(*compile_filter(), {1 - u, 0}).x), 2e-5) << u;
     sum += x;
     squares += x * x;
     const double at = -1.5 + 3 * u;
@@ -61,14 +61,14 @@ TEST(Filter, IsCentredSymmetricAndAsWideAsItsCurve) {
 
 TEST(Filter, StaysInsideThreePixelsForEveryNumberThatASequenceGives) {
   for (const double u : {0.0, 0x1p-32, 0.5, 1 - 0x1p-24, 1 - 0x1p-32, 1 - 0x1p-53}) {
-    const Vec2 p = sample_filter(*default_filter(), {u, 1 - u < 1 ? 1 - u : 0});
+    const Vec2 p = sample_filter(*compile_filter(), {u, 1 - u < 1 ? 1 - u : 0});
     EXPECT_TRUE(std::abs(p.x) <= 1.5f && std::abs(p.y) <= 1.5f) << u;
   }
 }
 
 TEST(Filter, AxesAreIndependentOfOneAnother) {
-  EXPECT_EQ(sample_filter(*default_filter(), {0.3, 0.1}).x, sample_filter(*default_filter(), {0.3, 0.9}).x);
-  EXPECT_EQ(sample_filter(*default_filter(), {0.3, 0.1}).y, sample_filter(*default_filter(), {0.8, 0.1}).y);
+  EXPECT_EQ(sample_filter(*compile_filter(), {0.3, 0.1}).x, sample_filter(*compile_filter(), {0.3, 0.9}).x);
+  EXPECT_EQ(sample_filter(*compile_filter(), {0.3, 0.1}).y, sample_filter(*compile_filter(), {0.8, 0.1}).y);
 }
 
 // Midpoints of equal shares: the variance that is sampled, to the steps of the table.
