@@ -26,22 +26,13 @@ struct StepNumbers {
   Batch2 thread{}, direction{}, ground{};
 };
 
-SequenceBatch sequences(std::uint32_t seed, std::span<const Path> paths, int bounce) {
-  SequenceBatch batch;
-  batch.count = int(paths.size());
-  for (size_t k = 0; k < paths.size(); ++k) {
-    const SampleId& id = paths[k].id;
-    batch.seed[k] = pixel_sequence(seed, id.x, id.y, id.replicate, bounce).seed;
-    batch.index[k] = id.index;
-  }
-  return batch;
-}
-
 StepNumbers draw_step(const Scene& scene, FabricSampler sampler, std::uint32_t seed, std::span<const Path> paths,
                       int bounce) {
   StepNumbers u;
-  const SequenceBatch left = sequences(seed, paths, bounce - 1);
-  u.met = sequences(seed, paths, bounce);
+  std::array<SampleId, batch_size> ids;
+  for (size_t k = 0; k < paths.size(); ++k) ids[k] = paths[k].id;
+  const SequenceBatch left = pixel_sequences(seed, {ids.data(), paths.size()}, bounce - 1);
+  u.met = pixel_sequences(seed, {ids.data(), paths.size()}, bounce);
   u.view = draw(left, Dimension::table_view);
   if (sampler == FabricSampler::talk) u.thread = draw2(left, Dimension::talk_thread);
   u.direction = draw2(left, sampler == FabricSampler::table  ? Dimension::table

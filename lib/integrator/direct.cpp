@@ -58,9 +58,7 @@ void add_lobes(const FabricView& view, const ClothPoint& point, const Vec3& wi, 
 void trace_shadow_rays(const Scene& scene, std::span<const Ray> rays, RayCounts& counts, float* passed) {
   counts.shadow += std::int64_t(rays.size());
   if (counts.log) counts.log->insert(counts.log->end(), rays.begin(), rays.end());
-  if (scene.has_gaps) {
-    return pass_gaps(scene, rays, passed);
-  }
+  if (scene.has_gaps) return pass_gaps(scene, rays, passed);
   std::array<bool, RayTracer::stream_size> blocked;
   scene.rays->occluded_each(rays, blocked.data());
   for (size_t k = 0; k < rays.size(); ++k) passed[k] = blocked[k] ? 0.0f : 1.0f;

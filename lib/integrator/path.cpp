@@ -82,14 +82,9 @@ void indirect_light(const Scene& scene, const LightSettings& settings, std::uint
 /// Sequences of a layer that some samples see.
 SequenceBatch layer_sequences(std::uint32_t seed, std::span<const SampleId> ids, std::span<const size_t> sample,
                               int layer) {
-  SequenceBatch batch;
-  batch.count = int(sample.size());
-  for (size_t n = 0; n < sample.size(); ++n) {
-    const SampleId& id = ids[sample[n]];
-    batch.seed[n] = pixel_sequence(seed, id.x, id.y, id.replicate, -layer).seed;
-    batch.index[n] = id.index;
-  }
-  return batch;
+  std::array<SampleId, batch_size> seen;
+  for (size_t n = 0; n < sample.size(); ++n) seen[n] = ids[sample[n]];
+  return pixel_sequences(seed, {seen.data(), sample.size()}, -layer);
 }
 
 /// The backdrop, of which `passed` reaches the eye.

@@ -93,7 +93,7 @@ std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_
   return {unit(d.first), unit(d.second)};
 }
 
-SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samples) {
+SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samples, int bounce) {
   SequenceBatch batch;
   batch.count = int(samples.size());
   std::array<std::uint32_t, batch_size> x{}, y{}, replicate{};
@@ -105,7 +105,7 @@ SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samp
   }
   const std::uint32_t picture = combine(0x53617465u, seed);
   for (std::size_t k = 0; k < padded(batch.count); ++k)
-    batch.seed[k] = combine(combine(combine(combine(picture, x[k]), y[k]), replicate[k]), 0);
+    batch.seed[k] = combine(combine(combine(combine(picture, x[k]), y[k]), replicate[k]), std::uint32_t(bounce));
   return batch;
 }
 

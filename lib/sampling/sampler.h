@@ -57,7 +57,7 @@ struct SequenceBatch {
 
   Sequence sequence(int k) const { return {seed[std::size_t(k)]}; }
 };
-SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samples);
+SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samples, int bounce = 0);
 using Batch1 = std::array<double, batch_size>;
 using Batch2 = std::array<std::array<double, 2>, batch_size>;
 Batch1 draw(const SequenceBatch& batch, Dimension dimension);
