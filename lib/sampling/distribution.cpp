@@ -50,14 +50,16 @@ std::uint32_t tabulate(std::span<const double> weights, std::span<std::uint32_t>
   return used;
 }
 
-CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u, std::uint32_t first_cell,
-                        std::uint32_t last_cell) {
+CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u,
+                        std::span<const std::uint32_t> guide) {
   if (used == 0) return {};
-  const double x = std::clamp(u, 0.0, 1.0 - 0x1p-53) * scale;
+  const double below_one = std::clamp(u, 0.0, 1.0 - 0x1p-53);
+  const auto part = std::size_t(below_one * double(guide.size() - 1));
+  const double x = below_one * scale;
   const auto key = std::uint32_t(x);
   // The last cell that starts at or before the key; equal starts are empty cells followed by the one that owns them.
-  const std::uint32_t* first = starts.data() + first_cell;
-  std::uint32_t length = last_cell - first_cell + 1;
+  const std::uint32_t* first = starts.data() + guide[part];
+  std::uint32_t length = guide[part + 1] - guide[part] + 1;
   while (length > 1) {
     const std::uint32_t half = length / 2;
     first = first[half] <= key ? first + half : first;
@@ -69,7 +71,14 @@ CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t use
 }
 
 CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u) {
-  return sample_table(starts, used, u, 0, used - 1);
+  const std::uint32_t whole[] = {0, used - 1};
+  return sample_table(starts, used, u, whole);
+}
+
+std::size_t guide_parts(std::size_t cells) {
+  std::size_t parts = 1;
+  while (parts < (std::size_t(1) << 20) && 8 * parts <= cells) parts *= 2;
+  return parts;
 }
 
 void tabulate_guide(std::span<const std::uint32_t> starts, std::uint32_t used, std::span<std::uint32_t> guide) {
@@ -92,11 +101,13 @@ Distribution1D build_distribution(std::span<const double> weights) {
   Distribution1D d;
   d.starts.resize(weights.size());
   d.used = tabulate(weights, d.starts);
+  d.guide.resize(guide_parts(weights.size()) + 1);
+  tabulate_guide(d.starts, d.used, d.guide);
   return d;
 }
 
 CellSample sample_cell(const Distribution1D& d, double u) {
-  return sample_table(d.starts, d.used, u);
+  return sample_table(d.starts, d.used, u, d.guide);
 }
 
 double cell_probability(const Distribution1D& d, std::uint32_t cell) {
@@ -107,11 +118,8 @@ CellSample2D sample_cell(const Distribution2D& d, double u0, double u1) {
   const CellSample row = sample_cell(d.rows, u1);
   if (row.probability == 0) return {};
   const auto width = std::size_t(d.width);
-  const std::size_t parts = std::size_t(1) << d.guide_bits;
-  const auto part = std::size_t(std::clamp(u0, 0.0, 1.0 - 0x1p-53) * double(parts));
-  const std::uint32_t* guide = d.guide.data() + row.cell * (parts + 1) + part;
-  const CellSample column =
-      sample_table({d.starts.data() + row.cell * width, width}, d.used[row.cell], u0, guide[0], guide[1]);
+  const std::span guide = std::span(d.guide).subspan(row.cell * (d.guide_parts + 1), d.guide_parts + 1);
+  const CellSample column = sample_table({d.starts.data() + row.cell * width, width}, d.used[row.cell], u0, guide);
   return {column.cell, row.cell, column.offset, row.offset, row.probability * column.probability};
 }
 

@@ -12,6 +12,9 @@ namespace sateen {
 struct Distribution1D {
   std::vector<std::uint32_t> starts;
   std::uint32_t used = 0;  ///< one past the last cell of positive weight; 0: all weights are zero, nothing to draw
+  /// Where to begin: for each of 2^n equal parts of u, some eight cells wide, the cell at the part's beginning, and
+  /// the last cell. Without it the search misses the cache, or its branches, at nearly every step.
+  std::vector<std::uint32_t> guide;
 };
 
 /// Distribution over width x height cells: a row by the marginal, then a column by that row's conditional table
@@ -21,10 +24,8 @@ struct Distribution2D {
   Distribution1D rows;
   std::vector<std::uint32_t> starts;  ///< width * height
   std::vector<std::uint32_t> used;    ///< per row, as Distribution1D::used
-  /// Where to begin: for each row and each of the 2^guide_bits equal parts of u, the cell at the part's beginning,
-  /// and the last cell; a quarter of the table's size. Without it the search misses the cache at nearly every step.
-  std::vector<std::uint32_t> guide;
-  int guide_bits = 0;
+  std::vector<std::uint32_t> guide;   ///< of each row, as Distribution1D::guide; a quarter of the table's size
+  std::size_t guide_parts = 1;        ///< of u, of each row
 };
 
 struct CellSample {
@@ -46,11 +47,14 @@ std::uint32_t tabulate(std::span<const double> weights, std::span<std::uint32_t>
 /// `u` in [0, 1), of which 32 bits choose the cell. Draws from one table as made by `tabulate`.
 CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u);
 
-/// The same, where the cell is known to lie in [first, last].
-CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u, std::uint32_t first,
-                        std::uint32_t last);
+/// The same with a guide.
+CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u,
+                        std::span<const std::uint32_t> guide);
 
-/// Fills the 2^bits + 1 entries of a row's guide.
+/// Equal parts of u that the guide of so many cells has.
+std::size_t guide_parts(std::size_t cells);
+
+/// Fills the entries of a guide, one more than it has parts.
 void tabulate_guide(std::span<const std::uint32_t> starts, std::uint32_t used, std::span<std::uint32_t> guide);
 
 /// Probability of a cell of one table; 0 out of range.
@@ -82,16 +86,16 @@ Distribution2D build_distribution(int width, int height, RowWeights&& row_weight
   d.height = height;
   d.starts.resize(std::size_t(width) * std::size_t(height));
   d.used.resize(std::size_t(height));
-  while (d.guide_bits < 20 && (8 << d.guide_bits) <= width) ++d.guide_bits;
-  const std::size_t parts = (std::size_t(1) << d.guide_bits) + 1;
-  d.guide.resize(parts * std::size_t(height));
+  d.guide_parts = guide_parts(std::size_t(width));
+  const std::size_t entries = d.guide_parts + 1;
+  d.guide.resize(entries * std::size_t(height));
   std::vector<double> weights(static_cast<std::size_t>(width)), sums(static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {
     row_weights(y, std::span<double>(weights));
     const std::size_t first = std::size_t(y) * std::size_t(width);
     d.used[std::size_t(y)] = tabulate(weights, std::span(d.starts).subspan(first, std::size_t(width)));
     tabulate_guide(std::span(d.starts).subspan(first, std::size_t(width)), d.used[std::size_t(y)],
-                   std::span(d.guide).subspan(std::size_t(y) * parts, parts));
+                   std::span(d.guide).subspan(std::size_t(y) * entries, entries));
     for (const double w : weights) sums[std::size_t(y)] += w;
   }
   d.rows = build_distribution(sums);

@@ -59,11 +59,13 @@ inline Seeds seeds(Sequence sequence, Dimension dimension) {
 struct Digits {
   std::uint32_t first, second;
 };
-[[gnu::always_inline]] inline Digits digits(Sequence sequence, Dimension dimension, std::uint32_t index) {
-  const Seeds s = seeds(sequence, dimension);
+[[gnu::always_inline]] inline Digits digits(const Seeds& s, std::uint32_t index) {
   const std::uint32_t shuffled = reverse_bits(permute_upwards(reverse_bits(index), s.shuffle));
   return {reverse_bits(permute_upwards(shuffled, s.first)),
           reverse_bits(permute_upwards(pascal(shuffled), s.second))};
+}
+[[gnu::always_inline]] inline Digits digits(Sequence sequence, Dimension dimension, std::uint32_t index) {
+  return digits(seeds(sequence, dimension), index);
 }
 // Vector code takes eight at a time.
 std::size_t padded(int count) {
@@ -93,6 +95,21 @@ std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_
   return {unit(d.first), unit(d.second)};
 }
 
+// The digits apart from their conversion: the first loop is 32 bits wide throughout.
+void draw(Sequence sequence, Dimension dimension, std::uint32_t first, std::span<double> out) {
+  const Seeds s = seeds(sequence, dimension);
+  std::array<std::uint32_t, batch_size> fraction;
+  for (std::size_t k = 0; k < padded(int(out.size())); ++k) fraction[k] = digits(s, first + std::uint32_t(k)).first;
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = unit(fraction[k]);
+}
+
+void draw2(Sequence sequence, Dimension dimension, std::uint32_t first, std::span<std::array<double, 2>> out) {
+  const Seeds s = seeds(sequence, dimension);
+  std::array<Digits, batch_size> fractions;
+  for (std::size_t k = 0; k < padded(int(out.size())); ++k) fractions[k] = digits(s, first + std::uint32_t(k));
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {unit(fractions[k].first), unit(fractions[k].second)};
+}
+
 SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samples, int bounce) {
   SequenceBatch batch;
   batch.count = int(samples.size());
@@ -109,7 +126,6 @@ SequenceBatch pixel_sequences(std::uint32_t seed, std::span<const SampleId> samp
   return batch;
 }
 
-// The digits apart from their conversion: the first loop is 32 bits wide throughout.
 Batch1 draw(const SequenceBatch& batch, Dimension dimension) {
   std::array<std::uint32_t, batch_size> first;
   for (std::size_t k = 0; k < padded(batch.count); ++k)

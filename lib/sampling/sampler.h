@@ -43,6 +43,10 @@ std::array<double, 2> draw2(Sequence sequence, Dimension dimension, std::uint32_
 /// stream.
 inline constexpr int batch_size = 64;
 
+/// At most batch_size consecutive points of one sequence from `first` on, the same bits as one by one.
+void draw(Sequence sequence, Dimension dimension, std::uint32_t first, std::span<double> out);
+void draw2(Sequence sequence, Dimension dimension, std::uint32_t first, std::span<std::array<double, 2>> out);
+
 /// One sample of a pixel: the `index`-th of a replicate.
 struct SampleId {
   int x = 0, y = 0, replicate = 0;

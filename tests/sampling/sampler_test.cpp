@@ -51,6 +51,22 @@ TEST(Sobol, ABatchDrawsTheNumbersThatItsSamplesDrawAlone) {
   }
 }
 
+TEST(Sobol, ConsecutivePointsAreThoseThatAreDrawnAlone) {
+  const Sequence sequence = pixel_sequence(5, 31, -7, 2, 1);
+  for (const Dimension dimension : every_dimension)
+    for (const std::uint32_t first : {0u, 1u, 64u, 77u, 0xfffffff0u})
+      for (const size_t count : {size_t(0), size_t(1), size_t(3), size_t(8), size_t(13), size_t(batch_size)}) {
+        std::vector<double> one(count);
+        std::vector<std::array<double, 2>> two(count);
+        draw(sequence, dimension, first, one);
+        draw2(sequence, dimension, first, two);
+        for (size_t k = 0; k < count; ++k) {
+          EXPECT_EQ(one[k], draw(sequence, dimension, first + std::uint32_t(k)));
+          EXPECT_EQ(two[k], draw2(sequence, dimension, first + std::uint32_t(k)));
+        }
+      }
+}
+
 TEST(Sobol, EveryAlignedBlockIsStratifiedInOneDimension) {
   const Sequence sequence = pixel_sequence(9, 12, 34, 0);
   for (const Dimension dimension : every_dimension)
