@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fabric/threads.h"
@@ -60,7 +62,14 @@ TableView prepare_table(const DirectionTable& table, const Vec3& wo);
 /// Solid-angle density [1/sr] of `sample_table`; 0 below the horizon.
 float table_pdf(const TableView& view, const Vec3& wi);
 
+/// The same for many directions of one view, the same bits in half of the time.
+void table_pdfs(const TableView& view, std::span<const Vec3> wi, float* densities);
+
 /// u_view chooses the slice, u_theta and u_phi the direction; all in [0, 1) with up to 32 bits.
 Vec3 sample_table(const TableView& view, double u_view, double u_theta, double u_phi);
+
+/// The same for many, `u` holding theta's and phi's: the same bits.
+void sample_table(const TableView& view, std::span<const double> u_view, std::span<const std::array<double, 2>> u,
+                  Vec3* directions);
 
 }  // namespace sateen

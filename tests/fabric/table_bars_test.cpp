@@ -160,6 +160,34 @@ TEST(DirectionTable, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
+// Lanes that others share must not change a number: a picture's bits would depend on what is drawn beside them.
+TEST(DirectionTable, DrawsAndWeighsManyDirectionsAsEachAlone) {
+  Random random{21};
+  for (const char* name : {"polyester_satin_charmeuse", "velvet", "dupioni"}) {
+    const Fabric& fabric = fabric_of(look_named(name));
+    for (int k = 0; k < 300; ++k) {
+      const TableView view = prepare_table(fabric.table, torture_direction(random));
+      const auto count = size_t(random.below(20));
+      std::vector<double> u_view(count);
+      std::vector<std::array<double, 2>> u(count);
+      for (size_t i = 0; i < count; ++i) u_view[i] = random.uniform(), u[i] = {random.uniform(), random.uniform()};
+      if (count > 2) u[0] = {0, 1 - 0x1p-32}, u_view[1] = 1 - 0x1p-32;
+      std::vector<Vec3> drawn(count), asked(count);
+      sample_table(view, u_view, u, drawn.data());
+      for (size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(drawn[i], sample_table(view, u_view[i], u[i][0], u[i][1]));
+        asked[i] = i % 3 == 0 ? torture_direction(random) : i % 3 == 1 ? -drawn[i] : drawn[i];
+      }
+      std::vector<float> density(count);
+      table_pdfs(view, asked, density.data());
+      for (size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(density[i], table_pdf(view, asked[i])) << name << " " << asked[i];
+        EXPECT_EQ(density[i] > 0, asked[i].z > 0) << name << " " << asked[i];
+      }
+    }
+  }
+}
+
 // A symmetric look is tabulated for half the views: the other half must be its mirror image.
 TEST(DirectionTable, MirrorsViewAndDirectionTogether) {
   const Fabric& fabric = fabric_of(look_named("linen_plain"));
