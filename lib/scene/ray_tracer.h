@@ -48,7 +48,7 @@ class RayTracer {
 
   bool occluded(const Ray& ray) const;
   /// The same for many rays that need have nothing in common, up to `stream_size`: a sixth faster than one by one.
-  static constexpr int stream_size = 128;
+  static constexpr int stream_size = 512;
   void occluded_each(std::span<const Ray> rays, bool* occluded) const;
 
   /// Share of light that passes where a ray meets the mesh, 0 to 1.

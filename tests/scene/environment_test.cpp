@@ -134,6 +134,23 @@ TEST(Environment, LooksUpTheTexelOfASampleInLargeMapsToo) {
   }
 }
 
+TEST(Environment, LooksUpManyDirectionsAsEachAlone) {
+  std::mt19937 random(6);
+  std::normal_distribution<float> normal;
+  EnvironmentOptions options;
+  options.rotation = 0.7f;
+  const Environment e =
+      build_environment(make_map(301, 97, [](int x, int y) { return Color(float(x), float(y), 1); }), options);
+  std::vector<Vec3> directions{{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}};
+  while (directions.size() < 1003)
+    directions.push_back(normalize(Vec3(normal(random), normal(random), normal(random))));
+  for (const size_t count : {size_t(0), size_t(1), size_t(7), size_t(8), size_t(9), directions.size()}) {
+    std::vector<const Environment::Texel*> texels(count);
+    environment_texels(e, {directions.data(), count}, texels.data());
+    for (size_t k = 0; k < count; ++k) ASSERT_EQ(texels[k], &environment_texel(e, directions[k])) << directions[k];
+  }
+}
+
 // Each of 64 maps x 2 densities is one test at 1e-5: false alarms below 1.3e-3 in all (the seed is fixed).
 TEST(Environment, DrawsDirectionsWithTheDensityItStates) {
   std::mt19937 random(6);
