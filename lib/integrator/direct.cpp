@@ -11,12 +11,12 @@ namespace {
 
 /// Share of light that comes from the environment to every point along its chosen rays: 0 or 1, or what gaps let
 /// pass.
-using Seen = std::array<std::array<float, 2>, batch_size>;
+using Seen = std::array<std::array<float, LightRays::most>, batch_size>;
 void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, std::span<const LightRays> rays,
                    RayCounts& counts, Seen& seen) {
-  static_assert(RayTracer::stream_size == 2 * batch_size);
-  std::array<Ray, 2 * batch_size> shadow;
-  std::array<float*, 2 * batch_size> result;
+  static_assert(RayTracer::stream_size == LightRays::most * batch_size);
+  std::array<Ray, LightRays::most * batch_size> shadow;
+  std::array<float*, LightRays::most * batch_size> result;
   size_t n = 0;
   const Ground* const ground = solid_ground(scene);
   const bool moves = scene.shutter.has_value();
@@ -39,7 +39,7 @@ void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, std::
     for (size_t k = 0; k < n; ++k) *result[k] = 1;
     return;
   }
-  std::array<float, 2 * batch_size> passed;
+  std::array<float, LightRays::most * batch_size> passed;
   trace_shadow_rays(scene, {shadow.data(), n}, counts, passed.data());
   for (size_t k = 0; k < n; ++k) *result[k] = passed[k];
 }

@@ -14,10 +14,15 @@ struct LightRay {
   Color light;     ///< radiance times the direction's weight
 };
 
-/// What a strategy chose for one point: at most two directions, none with black light.
+/// What a strategy chose for one point, none with black light.
 struct LightRays {
+  static constexpr int most = 8;
   int count = 0;
-  std::array<LightRay, 2> rays;
+  std::array<LightRay, most> rays;
+
+  void add(const Vec3& wi, const Vec3& world, const Color& radiance, float weight) {
+    if (weight > 0 && max_component(radiance) > 0) rays[size_t(count++)] = {wi, world, radiance * weight};
+  }
 
   std::span<const LightRay> chosen() const { return {rays.data(), size_t(count)}; }
 };

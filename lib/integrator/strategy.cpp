@@ -18,7 +18,7 @@ const std::vector<std::string>& strategy_names() {
 }
 
 Strategy strategy_from_name(const std::string& name) {
-  if (name == automatic_name) return Strategy::automatic;
+  if (name == automatic_name) return LightSettings().strategy;
   const std::vector<std::string>& names = strategy_names();
   for (size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return Strategy(i);

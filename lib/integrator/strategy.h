@@ -15,20 +15,19 @@ enum class Strategy {
   mis,              ///< table and map, balance heuristic, two shadow rays
   mis_compensated,  ///< table and compensated map, balance heuristic, two shadow rays
   mis_talk,         ///< the talk's sampler and map, balance heuristic, two shadow rays
-  resampled,        ///< candidates of table and compensated map, one kept, one shadow ray
-  automatic         ///< whichever a pilot finds best (render/pilot.h); until it has, mis_compensated
+  resampled,        ///< candidates of table and compensated map, of which some are kept (integrator/resample.h)
+  automatic         ///< the program's own way: `resampled`, in a study with samples dealt out by error
 };
 
 const std::vector<std::string>& strategy_names();      ///< in the order of the enum, without `automatic`
-Strategy strategy_from_name(const std::string& name);  ///< "auto" too; InputError with the nearest name
+Strategy strategy_from_name(const std::string& name);  ///< "auto" is `resampled`; InputError with the nearest name
 std::string strategy_name(Strategy strategy);
 FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
 
 struct LightSettings {
-  /// Least error at equal time in most pairs of look and map; a pilot may find a better one (render/pilot.h).
-  Strategy strategy = Strategy::mis_compensated;
-  int candidates = 4;  ///< of each kind, for resampling, 1 to 64
-  int bounces = 0;     ///< light that meets cloth or ground again, 0 to 64
+  Strategy strategy = Strategy::resampled;  ///< least error at equal time, docs/study.md
+  int candidates = 8;                       ///< of each kind, for resampling, 1 to 64
+  int bounces = 0;                          ///< light that meets cloth or ground again, 0 to 64
   /// Share of the samples that follow it, above 0 to 1; their light counts for the others. Light from fold to fold is
   /// smooth and dear: a part of the samples knows it well enough.
   float bounce_share = 1;

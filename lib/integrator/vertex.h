@@ -8,8 +8,8 @@ namespace sateen {
 /// Where a path scatters: on the cloth or on the ground.
 using Vertex = std::variant<ClothPoint, GroundPoint>;
 
-/// The cloth as a camera ray met it, pixel by pixel: `eye` is the ray as it left the camera, as it is traced. `object`
-/// says how the object stands under a shutter; `choice` is the random number of patterns (apply_maps).
+/// The cloth as a camera ray met it, pixel by pixel: `eye` is the ray as it left the camera, as it is traced.
+/// `object` says how the object stands under a shutter; `choice` is the random number of patterns (apply_maps).
 void seen_cloth(const Scene& scene, const Hit& hit, const Ray& eye, const YTurn& object, double& choice,
                 ClothPoint& point);
 
@@ -20,8 +20,8 @@ ClothPoint bounced_cloth(const Scene& scene, const Hit& hit, const Ray& ray, con
 std::optional<GroundPoint> met_ground(const Scene& scene, const Ground& ground, const Ray& ray, const YTurn& object,
                                       float t_max);
 
-/// What a ray meets first; `cloth` makes a ClothPoint of a hit. `ground` may be null; a catcher is met only where there
-/// is no cloth.
+/// What a ray meets first; `cloth` makes a ClothPoint of a hit. `ground` may be null; a catcher is met only where
+/// there is no cloth.
 template <class ToCloth>
 std::optional<Vertex> meet(const Scene& scene, const Ray& ray, const YTurn& object, const Ground* ground,
                            const ToCloth& cloth) {
