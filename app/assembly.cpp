@@ -1,7 +1,6 @@
 #include "assembly.h"
 
 #include "image/file.h"
-#include "render/pilot.h"
 
 namespace sateen::app {
 
@@ -25,13 +24,6 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
   if (flags.verify_plan && pilots)
     job.verdicts = verify_plan(scene, job.plan, flags.render.light, flags.render.seed, flags.render.threads);
   apply_plan(job.plan, scene, job.render.light);
-  // A question of the scene alone and never of the stop rules, so that ranges of samples of one picture, a resumed
-  // one and a longer one agree.
-  if (flags.render.light.strategy == Strategy::automatic && pilots) {
-    const StrategyChoice choice = choose_strategy(scene, job.render.light, flags.render.seed, flags.render.threads);
-    job.render.light.strategy = choice.strategy;
-    job.strategy_reason = choice.reason;
-  }
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;
@@ -50,7 +42,7 @@ void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts) {
       flags.switches.bounces = read_integer("bounces", fact.value, 0, 64);
     else if (fact.name == "bounce share")
       flags.switches.bounce_share = float(read_number("bounce share", fact.value, 0.001, 1));
-    else if (fact.name == "strategy" && flags.render.light.strategy == Strategy::automatic)
+    else if (fact.name == "strategy" && flags.strategy == strategy_name(Strategy::automatic))
       flags.render.light.strategy = strategy_from_name(fact.value);
 }
 

@@ -97,7 +97,7 @@ void add_quality(Command& c, PictureFlags& f) {
   c.integer("--seed", "N", f.seed, 0, 0x7fffffff, "another seed is another noise (default: 1)");
   c.integer("-t,--threads", "N", f.render.threads, 0, 4096, "0: all that this process may use (default)");
   c.text("--strategy", "NAME", f.strategy,
-         fmt::format("how light is sampled (default: auto, by a pilot on the scene): {}",
+         fmt::format("how light is sampled (default: {}): {}", strategy_name(f.render.light.strategy),
                      fmt::join(strategy_names(), ", ")));
   c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
             fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));

@@ -38,7 +38,7 @@ void add_approximation_flags(Command& command, Approximations& to);
 
 /// Samples a pixel, dealt out by error, where no stop rule was given: the default picture ends at an error of about
 /// 4 %; the plan works towards 3 (default_plan_error).
-inline constexpr int default_samples = 32;
+inline constexpr int default_samples = 24;
 
 /// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress,
 /// voice. `samples` is what is rendered when no stop rule was given.

@@ -102,7 +102,6 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   w.member("working_space", job.working_space).member("color_config", job.color_config);
   w.member("display", job.display.display).member("view", job.display.view);
   w.member("strategy", strategy_name(job.render.light.strategy));
-  if (!job.strategy_reason.empty()) w.member("strategy_reason", job.strategy_reason);
   w.member("effects", job.effects);
   w.key("plan").open_object();
   write_plan(w, job.plan);
@@ -142,7 +141,6 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
                          rules_text(job.render.stop)));
   print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
                            job.display.display, job.display.view));
-  if (!job.strategy_reason.empty()) print_note(fmt::format("light sampled by {}", job.strategy_reason));
   const PlannedEffect& bounces = job.plan.of(Effect::interreflection);
   print_note(fmt::format("interreflection {}: {}", bounces.on ? "on" : "off", bounces.reason));
   // What somebody may look for in the picture and not find.

@@ -38,9 +38,7 @@ int run_plan(const std::vector<std::string>& words) {
   if (!voice.json) {
     print_result(plan_text(job.plan));
     print_result("\n" + levels_text(job.plan, report));
-    print_result(fmt::format("light is sampled by {}", job.strategy_reason.empty()
-                                                           ? strategy_name(job.render.light.strategy)
-                                                           : job.strategy_reason));
+    print_result(fmt::format("light is sampled by {}", strategy_name(job.render.light.strategy)));
   }
   const int code = report_verdicts(job.plan, job.verdicts) ? int(done) : int(failed);
   JsonWriter w;

@@ -61,7 +61,7 @@ void describe(Command& c, StudyFlags& f) {
   c.group("How much of it");
   c.integer("--seeds", "N", s.seeds, 2, 100, fmt::format("repetitions, for the intervals (default: {})", s.seeds));
   c.integer("-s,--spp", "N", s.samples, 4, 4096,
-            "samples a pixel of the default strategy at equal time (default: as --time allows, 8 to 64)");
+            "samples a pixel of mis-compensated, whose time is the equal time (default: as --time allows, 8 to 64)");
   c.custom(
       "--time", "T", 1, 1, [&s](const auto& w) { s.cpu_seconds = read_duration("--time", w.back()); },
       "CPU time that the whole may take, about: 10m, 1h (default: 10m)");

@@ -146,7 +146,6 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   if (r.crop.x1 > r.crop.x0)
     text("crop", fmt::format("{} {} {} {} of {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1, s.width, s.height));
   text("strategy", strategy_name(r.light.strategy));
-  if (!job.strategy_reason.empty()) text("strategy_reason", job.strategy_reason);
   whole("candidates", r.light.candidates);
   whole("bounces", r.light.bounces);
   for (const Approximation& each : approximation_list())

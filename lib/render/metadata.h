@@ -15,7 +15,6 @@ struct PictureJob {
   DisplaySettings display;          ///< settled
   float exposure_ev = 0;            ///< in force
   std::vector<std::string> layers;  ///< of an EXR, beside the beauty
-  std::string strategy_reason;      ///< empty where the user named the strategy
   Plan plan;
   std::vector<Verdict> verdicts;  ///< of --verify-plan
   std::string effects;            ///< in force, "gaps,self-shadowing"

@@ -41,7 +41,6 @@ void add(std::vector<PixelLoss>& picture, int pixel, size_t replicate, const Col
 PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bounces, std::uint32_t seed,
                          int threads) {
   LightSettings light = asked;
-  if (light.strategy == Strategy::automatic) light.strategy = Strategy::mis_compensated;
   light.bounces = bounces;
   light.bounce_share = 1;
   PixelGrid grid;

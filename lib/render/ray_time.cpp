@@ -15,14 +15,21 @@ double proposals(const LightSettings& light) {
     case Strategy::environment:
       return 30;
     case Strategy::resampled:
-      return 110 + 340 * light.candidates;
+      return 370 + 120 * light.candidates;
     default:
       return 220;
   }
 }
 
 double shadow(const LightSettings& light) {
-  return light.strategy == Strategy::environment ? 320 : 390;  // towards the same few lights rays run together
+  switch (light.strategy) {
+    case Strategy::environment:  // towards the same few lights rays run together
+      return 320;
+    case Strategy::resampled:  // streams are longer
+      return 290;
+    default:
+      return 390;
+  }
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "film/develop.h"
 #include "mesh/subdivide.h"
-#include "render/pilot.h"
 #include "study/cost.h"
 #include "study/work_clock.h"
 
@@ -66,8 +65,6 @@ class CostMeasurement {
     LightSettings& light = result_.settings.light;
     result_.plan = make_plan(scene_, report.look, s.effects, plan_error, light, s.seed, s.threads);
     apply_plan(result_.plan, scene_, light);
-    if (light.strategy == Strategy::automatic)
-      light.strategy = choose_strategy(scene_, light, s.seed, s.threads).strategy;
     exposure_ = s.exposure_ev.value_or(report.metered_ev);
     const double pixels = double(s.scene.width) * s.scene.height, share = std::min(1.0, s.pixels / pixels);
     result_.width = std::max(16, int(std::lround(s.scene.width * std::sqrt(share))));
@@ -252,7 +249,7 @@ class CostMeasurement {
     list.biased = list.advised = false;
     list.note = "of strategy resampled; true error squared times time decides";
     std::vector<Step> steps;
-    for (const int number : {1, 2, 4, 8}) {
+    for (const int number : {1, 2, 4, 8, 16}) {
       LightSettings light = result_.settings.light;
       light.strategy = Strategy::resampled;
       light.candidates = number;

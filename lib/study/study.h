@@ -14,8 +14,8 @@ namespace sateen {
 struct StudySettings {
   SceneSettings scene;  ///< mesh, camera, size; look and light are set from the lists
   std::vector<std::string> looks = study_looks(), lights = study_lights();
-  int seeds = 4;             ///< independent repetitions that intervals come from, at least 2
-  int samples = 0;           ///< of mis-compensated at equal time; 0: as many as `cpu_seconds` allow, 8 to 64
+  int seeds = 4;    ///< independent repetitions that intervals come from, at least 2
+  int samples = 0;  ///< of mis-compensated, whose time is the equal time; 0: as many as `cpu_seconds` allow, 8 to 64
   double cpu_seconds = 600;  ///< about what the whole may take
   bool pictures = true;
   int threads = 0;
@@ -38,9 +38,8 @@ struct StudyScene {
   bool all_strategies = false;  ///< measured with all of them at equal time; else `uniform`, `talk`, `table` alone
   bool ladder = false;          ///< measured at growing samples: one of the talk's figures
   int reference_samples = 0;
-  PictureMse reference_error{};                ///< Reference::own
-  double light_share = 0;                      ///< half_light_share()
-  Strategy pilot = Strategy::mis_compensated;  ///< what `automatic` came to
+  PictureMse reference_error{};  ///< Reference::own
+  double light_share = 0;        ///< half_light_share()
   bool finished = false;
 
   std::string label() const;  ///< "velvet, overcast", "velvet, overcast, 2 bounces"
@@ -60,7 +59,6 @@ struct StudyResult {
   std::vector<StudyRun> runs;
   std::vector<StudyPicture> pictures;
   std::vector<std::string> skipped;  ///< what was left out and why, one sentence each
-  /// What the program does unless told otherwise: the pilot's strategy, samples dealt out by error.
   Strategy ours = Strategy::automatic;
   double seconds = 0, cpu_seconds = 0;
   bool interrupted = false;

@@ -177,10 +177,13 @@ std::vector<Bar> study_bars(const StudyResult& result) {
     const StudyScene& s = result.scenes[size_t(i)];
     if (s.light != white_light || s.bounces > 0 || !s.finished) continue;
     const int n = result.settings.samples;
-    const Ratio ratio = samples_ratio(result, i, Strategy::table, n, Strategy::uniform, n, Measure::relative);
-    if (!ratio.known) continue;
-    bars.push_back({fmt::format("table over uniform, {} samples each, {} in constant white light", n, s.look), 0.06,
-                    ratio.interval, ratio.interval.value <= 0.06});
+    for (const Strategy each : {LightSettings().strategy, Strategy::table}) {
+      const Ratio ratio = samples_ratio(result, i, each, n, Strategy::uniform, n, Measure::relative);
+      if (!ratio.known) continue;
+      bars.push_back({fmt::format("{} over uniform, {} samples each, {} in constant white light", strategy_name(each),
+                                  n, s.look),
+                      0.06, ratio.interval, ratio.interval.value <= 0.06});
+    }
   }
   return bars;
 }

@@ -98,13 +98,11 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
       "and "
       "its error taken from the line between them in logarithms. Renders of all strategies alternate. CPU time is "
       "that "
-      "of rendering: the direction table (about 0.3 s a look) and the ray tracer are built before; the pilot of "
-      "auto, 0.2 s a picture of any size, "
-      "is not counted either.",
+      "of rendering: the direction table (about 0.3 s a look) and the ray tracer are built before.",
       fmt::format("{} scenes", result.scenes.size()), result.settings.scene.mesh, result.settings.scene.width,
       result.settings.scene.height, result.settings.seeds, "mis-compensated", result.settings.samples));
   page.paragraph(
-      "References are by mis-compensated with an independent seed. Their own error is estimated from the scatter of "
+      "References are by resampled with an independent seed. Their own error is estimated from the scatter of "
       "their replicates and is part of every MSE here: the third column says how large a part of the least one.");
   page.table(reference_table(result));
   return page.html();

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "render/pilot.h"
 #include "render/render.h"
 #include "study/study.h"
 #include "study/study_analysis.h"
@@ -17,7 +16,8 @@ namespace sateen {
 
 namespace {
 
-constexpr int reference_factor = 32;  // of the samples at equal time
+constexpr int reference_factor = 16;   // of the samples at equal time; each is worth two to four of those
+constexpr double reference_price = 3;  // of one of its samples, in those at equal time
 constexpr std::uint32_t reference_seed = 900001;
 constexpr int ladder_looks = 2;  // the talk's: satin and silk
 
@@ -100,10 +100,17 @@ class Study {
   // it.
   double units_of(const StudyScene& scene, int samples) const {
     const double seeds = result_.settings.seeds, price = scene.bounces > 0 ? 2 : 1;
-    double units = reference_factor * samples * price / (scene.bounces > 0 ? 2 : 1);
-    if (scene.all_strategies) units += seeds * double(strategy_names().size()) * 2.2 * samples;
+    double units = reference_units(scene, samples);
+    if (scene.all_strategies) units += seeds * double(strategy_names().size()) * 2.4 * samples;
     if (scene.ladder) units += seeds * double(ladder_strategies().size()) * ladder_top(scene, samples) * price;
     return units;
+  }
+
+  static int reference_samples(const StudyScene& scene, int samples) {
+    return reference_factor * samples / (scene.bounces > 0 ? 2 : 1);
+  }
+  static double reference_units(const StudyScene& scene, int samples) {
+    return reference_price * reference_samples(scene, samples) * (scene.bounces > 0 ? 2 : 1);
   }
 
   static int ladder_top(const StudyScene& scene, int samples) { return scene.bounces > 0 ? samples : 2 * samples; }
@@ -138,7 +145,7 @@ class Study {
   Film render_film(const Scene& scene, Strategy strategy, int samples, std::uint32_t seed, int bounces,
                    StudyRun& run) {
     RenderSettings settings;
-    settings.light.strategy = strategy == Strategy::automatic ? pilot_ : strategy;
+    if (strategy != Strategy::automatic) settings.light.strategy = strategy;
     settings.adaptive = strategy == Strategy::automatic;
     settings.light.bounces = bounces;
     settings.stop.spp = samples;
@@ -164,20 +171,18 @@ class Study {
     SceneReport report;
     const Scene scene = assemble_study_scene(scene_settings(s), colors_, report);
     s.light_share = half_light_share(scene.environment);
-    if (s.all_strategies) s.pilot = choose_strategy(scene, {}, 1, result_.settings.threads).strategy;
-    pilot_ = s.pilot;
-    s.reference_samples = reference_factor * at_equal_time / (s.bounces > 0 ? 2 : 1);
+    s.reference_samples = reference_samples(s, at_equal_time);
     StudyRun ignored;
     const Film truth =
-        render_film(scene, Strategy::mis_compensated, s.reference_samples, reference_seed, s.bounces, ignored);
+        render_film(scene, LightSettings().strategy, s.reference_samples, reference_seed, s.bounces, ignored);
     if (clock_.stopped()) return;
     const Reference reference = make_reference(truth, s.reference_samples);
     s.reference_error = reference.own;
-    clock_.done(s.reference_samples * (s.bounces > 0 ? 2.0 : 1.0));
+    clock_.done(reference_units(s, at_equal_time));
 
     const std::vector<std::pair<Strategy, int>> list = runs_of(s, scene);
     const size_t runs_before = result_.runs.size();
-    const double units = units_of(s, at_equal_time) - s.reference_samples * (s.bounces > 0 ? 2.0 : 1.0);
+    const double units = units_of(s, at_equal_time) - reference_units(s, at_equal_time);
     for (int seed = 1; seed <= result_.settings.seeds; ++seed)
       for (const auto& [strategy, samples] : list) {
         add_run(index, scene, reference, strategy, samples, seed);
@@ -290,7 +295,6 @@ class Study {
   const std::function<void(const StudyState&)>& observe_;
   WorkClock clock_;
   StudyResult result_;
-  Strategy pilot_ = Strategy::mis_compensated;  ///< of the scene that is being measured
 };
 
 }  // namespace

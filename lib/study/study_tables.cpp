@@ -76,7 +76,7 @@ Table ratio_table(const StudyResult& result) {
 }
 
 Table winner_table(const StudyResult& result) {
-  Table table{{"scene", "least MSE", "second", "beyond chance", "the pilot chose", "auto / least"}, {}};
+  Table table{{"scene", "least MSE", "second", "beyond chance", "auto / least"}, {}};
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     if (!is_compared(result.scenes[size_t(i)])) continue;
     const Winner winner = scene_winner(result, i, Measure::relative);
@@ -84,7 +84,6 @@ Table winner_table(const StudyResult& result) {
     const Ratio ratio = equal_time_ratio(result, i, result.ours, winner.strategy, Measure::relative);
     table.rows.push_back({result.scenes[size_t(i)].label(), strategy_name(winner.strategy),
                           strategy_name(winner.second), winner.clear ? "yes" : "no",
-                          strategy_name(result.scenes[size_t(i)].pilot),
                           ratio.known ? fmt::format("{:.2f}", ratio.interval.value) : "-"});
   }
   return table;
@@ -112,12 +111,9 @@ std::string study_text(const StudyResult& result) {
   text += fmt::format(
       "MSE is relative: mean of (x - r)^2 / (r^2 + 0.01), working space at exposure 0. {} seeds, {} x {} pixels, "
       "equal time is\nthe CPU time of mis-compensated at {} samples. auto is what the program does unless told "
-      "otherwise: the "
-      "pilot's\nstrategy, samples dealt out by error; the pilot itself, 0.2 CPU-seconds a picture of any size, is "
-      "not counted. "
-      "{:.0f} CPU-seconds.\n\n",
+      "otherwise: {},\nsamples dealt out by error. {:.0f} CPU-seconds.\n\n",
       result.settings.seeds, result.settings.scene.width, result.settings.scene.height, result.settings.samples,
-      result.cpu_seconds);
+      strategy_name(LightSettings().strategy), result.cpu_seconds);
   const auto part = [&](const char* title, const Table& table) {
     if (!table.rows.empty()) text += fmt::format("{}\n\n{}\n", title, table_text(table));
   };

@@ -94,9 +94,8 @@ TEST(Render, AQualityAsksForItsErrorAndWhatThatCallsForWhereTheCommandLineDoesNo
   EXPECT_NE(mixed.find("\"error\": 0.25"), std::string::npos) << mixed;
 }
 
-TEST(Render, TheChosenStrategyDoesNotDependOnTheNumberOfSamples) {
+TEST(Render, RangesOfSamplesMergeAndResumeWithTheUsualStrategy) {
   const Folder folder;
-  // The pilot takes another strategy than the usual one here.
   const auto picture = [&](std::vector<std::string> flags) {
     flags.insert(flags.begin(), {"render", "-l", "crimson_velvet", "-r", "64", "36", "-q", "--progress", "none"});
     return run_sateen(flags, {folder.path});

@@ -26,5 +26,6 @@ void strategies();
 void memory();
 void whole();
 void off();
+void off_once();
 
 }  // namespace sateen::bench

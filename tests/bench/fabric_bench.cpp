@@ -55,19 +55,24 @@ void kernel() {
         require(std::abs(double(f.volume[0]) - d.volume[0]) <= 1e-3 * d.volume[0] + 1e-6, "kernel against double");
       }
     }
-    const double ns = nanoseconds(15, 1, [&] {
-      float sum = 0;
-      for (int v = 0; v < 16; ++v) {
-        prepare_view(fabric, wo[size_t(v)], FabricSampler::uniform, *view);
-        for (const Vec3& w : wi) sum += evaluate_parts(*view, w).surface[0];
-      }
-      sink = sum;
-    }) / (16 * double(wi.size()));
-    const double view_ns = nanoseconds(15, 200, [&] {
-      for (const Vec3& o : wo) prepare_view(fabric, o, FabricSampler::uniform, *view);
-    }) / double(wo.size());
-    fmt::print("{:<28}{:>10}{:>14.1f}{:>12.2f}{:>12.1f}\n", name, fabric.threads.count, ns,
-               ns / fabric.threads.count, view_ns);
+    const double ns = nanoseconds(15, 1,
+                                  [&] {
+                                    float sum = 0;
+                                    for (int v = 0; v < 16; ++v) {
+                                      prepare_view(fabric, wo[size_t(v)], FabricSampler::uniform, *view);
+                                      for (const Vec3& w : wi) sum += evaluate_parts(*view, w).surface[0];
+                                    }
+                                    sink = sum;
+                                  }) /
+                      (16 * double(wi.size()));
+    const double view_ns = nanoseconds(15, 200,
+                                       [&] {
+                                         for (const Vec3& o : wo)
+                                           prepare_view(fabric, o, FabricSampler::uniform, *view);
+                                       }) /
+                           double(wo.size());
+    fmt::print("{:<28}{:>10}{:>14.1f}{:>12.2f}{:>12.1f}\n", name, fabric.threads.count, ns, ns / fabric.threads.count,
+               view_ns);
   }
 }
 
@@ -104,20 +109,28 @@ void samplers() {
     variance = squares - sum * sum;
     uniform = uniform_squares - sum * sum;
 
-    const double view_ns = nanoseconds(15, 50, [&] {
-      for (const Vec3& d : wo) sink = prepare_table(fabric.table, d).turn[0];
-    }) / double(wo.size());
-    const double sample_ns = nanoseconds(15, 5, [&] {
-      for (std::uint32_t i = 0; i < 1024; ++i) {
-        const double a = (i * 0.618033988749895), b = i * 0.754877666246693;
-        sink = sample_table(view->sampler.table, a - std::floor(a), b - std::floor(b), (i + 0.5) / 1024).x;
-      }
-    }) / 1024;
-    const double pdf_ns = nanoseconds(15, 5, [&] {
-      float all = 0;
-      for (const Vec3& d : wi) all += table_pdf(view->sampler.table, d);
-      sink = all;
-    }) / double(wi.size());
+    const double view_ns = nanoseconds(15, 50,
+                                       [&] {
+                                         for (const Vec3& d : wo) sink = prepare_table(fabric.table, d).turn[0];
+                                       }) /
+                           double(wo.size());
+    const double sample_ns =
+        nanoseconds(
+            15, 5,
+            [&] {
+              for (std::uint32_t i = 0; i < 1024; ++i) {
+                const double a = (i * 0.618033988749895), b = i * 0.754877666246693;
+                sink = sample_table(view->sampler.table, a - std::floor(a), b - std::floor(b), (i + 0.5) / 1024).x;
+              }
+            }) /
+        1024;
+    const double pdf_ns = nanoseconds(15, 5,
+                                      [&] {
+                                        float all = 0;
+                                        for (const Vec3& d : wi) all += table_pdf(view->sampler.table, d);
+                                        sink = all;
+                                      }) /
+                          double(wi.size());
     fmt::print("{:<28}{:>12.3f}{:>12.0f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.4f}\n", name, compile,
                double(fabric.table.cumulative.size()) * 4 / 1024, sample_ns, pdf_ns, view_ns, variance / uniform);
   }

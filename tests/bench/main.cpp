@@ -63,7 +63,8 @@ int main(int argc, char** argv) {
                                                             {"strategies", bench::strategies},
                                                             {"memory", bench::memory},
                                                             {"whole", bench::whole},
-                                                            {"off", bench::off}};
+                                                            {"off", bench::off},
+                                                            {"off-once", bench::off_once}};
   std::vector<std::string> names;
   for (const auto& [name, run] : all) names.push_back(name);
   flush_denormals();
@@ -74,7 +75,8 @@ int main(int argc, char** argv) {
         return 2;
       }
     for (const auto& [name, run] : all)
-      if (argc == 1 || std::find(argv + 1, argv + argc, name) != argv + argc) {
+      // Of use under a counting program alone.
+      if ((argc == 1 && name != "off-once") || std::find(argv + 1, argv + argc, name) != argv + argc) {
         fmt::print("\n== {} ==\n", name);
         run();
       }
