@@ -62,7 +62,7 @@ void load_and_build(int cells, int level, double most_seconds) {
       embree_bytes, double(tracer.peak_memory_bytes()) / triangles);
   EXPECT_LT(mesh_bytes, 37);
   EXPECT_LT(mesh_bytes + embree_bytes, 80);
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__OPTIMIZE__) && !defined(SATEEN_SANITIZE)
   EXPECT_LT(built - start, most_seconds);
   EXPECT_GT(megabytes / (read - start), 50);
 #else
