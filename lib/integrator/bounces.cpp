@@ -67,6 +67,7 @@ std::optional<Vertex> meet_next(const Scene& scene, Ray ray, const YTurn& object
   const auto cloth = [&](const Hit& hit) { return bounced_cloth(scene, hit, ray, object, choice); };
   for (int layer = 0;; ++layer) {
     ++counts.bounce;
+    if (counts.log) counts.log->bounce.push_back(ray);
     std::optional<Vertex> next = meet(scene, ray, object, ground, cloth);
     const ClothPoint* met = next && scene.has_gaps ? std::get_if<ClothPoint>(&*next) : nullptr;
     if (!met || !(pass < double(met->gap)) || layer == most_layers) return next;

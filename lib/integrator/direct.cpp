@@ -57,7 +57,7 @@ void add_lobes(const FabricView& view, const ClothPoint& point, const Vec3& wi, 
 
 void trace_shadow_rays(const Scene& scene, std::span<const Ray> rays, RayCounts& counts, float* passed) {
   counts.shadow += std::int64_t(rays.size());
-  if (counts.log) counts.log->insert(counts.log->end(), rays.begin(), rays.end());
+  if (counts.log) counts.log->shadow.insert(counts.log->shadow.end(), rays.begin(), rays.end());
   if (scene.has_gaps) return pass_gaps(scene, rays, passed);
   std::array<bool, RayTracer::stream_size> blocked;
   scene.rays->occluded_each(rays, blocked.data());

@@ -15,9 +15,14 @@ struct LobeLight {
   Color total() const { return surface[0] + surface[1] + volume[0] + volume[1]; }
 };
 
+/// Rays that were traced, for the benchmark to trace them bare.
+struct RayLog {
+  std::vector<Ray> shadow, bounce;
+};
+
 /// Counts of one thread; merged at the end of a pass.
 struct RayCounts {
-  std::vector<Ray>* log = nullptr;  ///< where given, every shadow ray is kept here (the benchmark traces them bare)
+  RayLog* log = nullptr;  ///< where given, rays are kept here
   std::int64_t camera = 0, shadow = 0, bounce = 0;
   std::int64_t lit = 0;                          ///< points of cloth whose direct light was estimated
   std::int64_t shadow_after = 0, lit_after = 0;  ///< how many of them belong to points that bounces met

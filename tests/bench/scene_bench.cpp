@@ -90,7 +90,7 @@ void environment() {
 
 void rays() {
   fmt::print("rays per CPU-second of a render over bare Embree on the very same rays, one thread, one by one\n");
-  fmt::print("{:<28}{:>10}{:>18}{:>12}{:>12}{:>12}{:>16}\n", "look", "triangles", "strategy", "Mray/s", "bare Mray/s",
+  fmt::print("{:<28}{:>10}{:>30}{:>12}{:>12}{:>12}{:>16}\n", "look", "triangles", "strategy", "Mray/s", "bare Mray/s",
              "efficiency", "min to max");
   struct Case {
     const char* look;
@@ -101,10 +101,12 @@ void rays() {
                                     {"silk_crepe_de_chine", 3},
                                     {default_look, 3}}) {
     const Scene scene = scene_of(look, "studio_softboxes", level, 960);
-    for (const Strategy strategy : {Strategy::mis, Strategy::mis_compensated, Strategy::resampled}) {
+    for (const auto& [strategy, bounces] : {std::pair(Strategy::mis, 0), std::pair(Strategy::mis_compensated, 0),
+                                            std::pair(LightSettings().strategy, 0), std::pair(Strategy::mis, 3),
+                                            std::pair(LightSettings().strategy, 3)}) {
       LightSettings light;
       light.strategy = strategy;
-      light.candidates = 4;
+      light.bounces = bounces;
       auto scratch = std::make_unique<PathScratch>();
       // The rays of the picture's first samples, in the batches that a pass makes of them.
       constexpr int samples = 4;
@@ -122,8 +124,9 @@ void rays() {
         }
         sink = sum;
       };
-      std::vector<Ray> shadow, camera;
-      scratch->counts.log = &shadow;
+      RayLog log;
+      std::vector<Ray> camera;
+      scratch->counts.log = &log;
       render_all();
       scratch->counts.log = nullptr;
       for (const SampleId& id : ids) {
@@ -131,17 +134,20 @@ void rays() {
                                       draw2(pixel_sequence(1, id.x, id.y, id.replicate), Dimension::film, id.index));
         camera.push_back(scene.camera.ray(float(id.x) + 0.5f + at.x, float(id.y) + 0.5f + at.y));
       }
-      const double count = double(camera.size() + shadow.size());
+      const double count = double(camera.size() + log.shadow.size() + log.bounce.size());
       require(scratch->counts.camera == std::int64_t(camera.size()), "number of camera rays");
+      require(scratch->counts.bounce == std::int64_t(log.bounce.size()), "number of rays that bounce");
       const Pair pair = interleaved(5, render_all, [&] {
         int hits = 0;
         for (const Ray& ray : camera) hits += scene.rays->closest_hit(ray).has_value();
-        for (const Ray& ray : shadow) hits += scene.rays->occluded(ray);
+        for (const Ray& ray : log.bounce) hits += scene.rays->closest_hit(ray).has_value();
+        for (const Ray& ray : log.shadow) hits += scene.rays->occluded(ray);
         sink = float(hits);
       });
-      fmt::print("{:<28}{:>10}{:>18}{:>12.2f}{:>12.2f}{:>12.3f}{:>9.3f} {:>6.3f}\n", look, scene.mesh->triangles(),
-                 strategy_name(strategy), count / pair.a * 1e-6, count / pair.b * 1e-6, 1 / pair.ratio, 1 / pair.high,
-                 1 / pair.low);
+      const std::string name =
+          bounces > 0 ? fmt::format("{}, {} bounces", strategy_name(strategy), bounces) : strategy_name(strategy);
+      fmt::print("{:<28}{:>10}{:>30}{:>12.2f}{:>12.2f}{:>12.3f}{:>9.3f} {:>6.3f}\n", look, scene.mesh->triangles(),
+                 name, count / pair.a * 1e-6, count / pair.b * 1e-6, 1 / pair.ratio, 1 / pair.high, 1 / pair.low);
     }
   }
 }
