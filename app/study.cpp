@@ -64,7 +64,7 @@ void describe(Command& c, StudyFlags& f) {
             "samples a pixel of mis-compensated, whose time is the equal time (default: as --time allows, 8 to 64)");
   c.custom(
       "--time", "T", 1, 1, [&s](const auto& w) { s.cpu_seconds = read_duration("--time", w.back()); },
-      "CPU time that the whole may take, about: 10m, 1h (default: 10m)");
+      "CPU time that the whole may take, about: 10m, 2h (default: 1h)");
   c.flag("--quick", f.quick, "a minute: satin alone, three lights, smaller renders");
   c.flag("--pictures", s.pictures, "pictures to compare (default)");
   add_approximation_flags(c, s.scene.approximations);
@@ -73,12 +73,12 @@ void describe(Command& c, StudyFlags& f) {
   c.text("-o,--output", "FOLDER", f.folder, fmt::format("where all of it goes (default: {})", f.folder));
   c.flag("-q,--quiet", f.quiet, "warnings and errors only");
   c.example("sateen study --quick -o out/study", "a minute, to see what it gives");
-  c.example("sateen study -o out/study", "the whole, about ten CPU-minutes; open out/study/index.html");
+  c.example("sateen study -o out/study", "the whole, about an hour of one core; open out/study/index.html");
   c.example("sateen study --looks my_satin.json --envs white,studio.hdr --mesh dress.obj --time 5m",
             "your own look, form and light");
 }
 
-// Names are looked at before anything is rendered: the last scene's typing error must not cost ten minutes.
+// Names are looked at before anything is rendered: the last scene's typing error must not cost an hour.
 void check_names(const StudySettings& s) {
   for (const std::string& look : s.looks) read_look(look);
   for (const std::string& light : s.lights)
@@ -88,8 +88,8 @@ void check_names(const StudySettings& s) {
 
 int run_study(const std::vector<std::string>& words) {
   StudyFlags flags;
-  flags.study.scene.width = 128;
-  flags.study.scene.height = 72;
+  flags.study.scene.width = 240;
+  flags.study.scene.height = 135;
   Command command("study", "Measures the sampling strategies against each other, at equal samples and at equal time.",
                   "[--quick] [--looks NAMES] [--envs MAPS] [--mesh FILE] [-o FOLDER] [flags]");
   describe(command, flags);

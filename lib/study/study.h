@@ -16,7 +16,7 @@ struct StudySettings {
   std::vector<std::string> looks = study_looks(), lights = study_lights();
   int seeds = 4;    ///< independent repetitions that intervals come from, at least 2
   int samples = 0;  ///< of mis-compensated, whose time is the equal time; 0: as many as `cpu_seconds` allow, 8 to 64
-  double cpu_seconds = 600;  ///< about what the whole may take
+  double cpu_seconds = 3600;  ///< about what the whole may take
   bool pictures = true;
   int threads = 0;
   int picture_width = 256, picture_height = 144;
