@@ -56,7 +56,7 @@ class Reader {
   explicit Reader(const std::string& text) : text_(text) {}
   void bytes(void* data, size_t size) {
     if (size > text_.size() - at_) throw std::length_error("short");
-    std::memcpy(data, text_.data() + at_, size);
+    if (size > 0) std::memcpy(data, text_.data() + at_, size);  // an empty vector's data may be null
     at_ += size;
   }
   template <class T>

@@ -76,7 +76,6 @@ TEST(VerifyPlan, APlanThatLeavesOutWhatIsNeededIsFoundWrong) {
   EXPECT_EQ(int(of(verify_plan(scene, plan, {}, 1, 2), Effect::self_shadowing).outcome),
             int(Verdict::Outcome::wrong));
 
-  bounces.basis = Basis::asked;
   plan = plan_of(settings, scene, "-interreflection", 0.02);
   const std::vector<Verdict> asked = verify_plan(scene, plan, {}, 1, 2);
   EXPECT_EQ(int(of(asked, Effect::interreflection).outcome), int(Verdict::Outcome::right)) << "the user's own wish";
