@@ -49,7 +49,7 @@ int run_merge(const std::vector<std::string>& words) {
 
   RenderResult result;
   result.samples = sum.course.samples;
-  result.error = picture_error(sum.film);
+  result.error = error_of(sum.film, sum.course.samples);
   result.deviation = deviation_of_share(sum.film);
   result.seconds = result.total_seconds = sum.course.seconds;
   result.cpu_seconds = result.total_cpu_seconds = sum.course.cpu_seconds;

@@ -69,8 +69,11 @@ double barrier_for(double first, double samples) {
 
 ErrorSlope fit_slope(const std::vector<ErrorPoint>& points) {
   double count = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+  // Up to the first look samples are the same everywhere; that they are dealt out from then on makes E fall faster
+  // for a while than it goes on to. Promises that counted it in were a tenth too short in the median of 19 scenes.
+  const double even = points.size() >= 4 ? points.front().samples : 0;
   for (const ErrorPoint& p : points) {
-    if (!(p.error > 0) || !(p.useful > 0) || p.samples < points.back().samples / 8) continue;
+    if (!(p.error > 0) || !(p.useful > 0) || p.samples <= even || p.samples < points.back().samples / 8) continue;
     const double x = std::log(p.useful), y = std::log(p.error);
     count += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }

@@ -77,6 +77,10 @@ struct RenderHooks {
   std::function<void(const RenderResult&, bool asked)> snapshot;
 };
 
+/// E of a picture with so many mean samples (film/error.h), made larger before the first barrier: a ratio of two
+/// noisy numbers is off by about one part in their count, and of few samples E comes out too small.
+PictureError error_of(const Film& film, int samples);
+
 /// Renders into `film` pass by pass, on from where `course` is. Same scene, settings and film give the same bits on
 /// any number of threads and however often the render was stopped and gone on with, to whatever error, time or
 /// samples: these only say where it ends. After an interrupt the film holds whole samples, some pixels more.

@@ -147,7 +147,7 @@ void judge_coarse(const ErrorScene& which, int width, int height, int seeds, Coa
   settings.stop.spp = 1024;
   Film reference(width, height, false);
   render(scene, settings, reference);
-  for (const double target : {0.3, 0.2, 0.1, 0.07}) {
+  for (const double target : {0.3, 0.2, 0.1, 0.07, 0.05, 0.035}) {
     int met = 0, early = 0;
     double ratio = 0, taken = 0;
     for (int seed = 0; seed < seeds; ++seed) {
@@ -165,7 +165,7 @@ void judge_coarse(const ErrorScene& which, int width, int height, int seeds, Coa
     }
     tally.runs += early, tally.met += met, tally.log_ratio += ratio;
     if (std::getenv("SATEEN_TEST_NUMBERS") && early > 0)
-      std::fprintf(stderr, "| %s | %.2f | %d/%d | %.1f | %.2f | %d/%d |\n", name_of(which).c_str(), target, early,
+      std::fprintf(stderr, "| %s | %.3g | %d/%d | %.1f | %.2f | %d/%d |\n", name_of(which).c_str(), target, early,
                    seeds, taken / early, std::exp(ratio / early), met, early);
   }
 }
