@@ -37,7 +37,7 @@ void add_picture_flags(Command& command, PictureFlags& flags);
 void add_approximation_flags(Command& command, Approximations& to);
 
 /// Samples a pixel, dealt out by error, where no stop rule was given: the default picture ends at an error of about
-/// 4 %; the plan works towards 3 (default_plan_error).
+/// 3 %, which the plan works towards (default_plan_error).
 inline constexpr int default_samples = 24;
 
 /// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress,

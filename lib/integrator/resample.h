@@ -8,8 +8,8 @@ namespace sateen {
 /// (cloth-model.md section 6). Unbiased: the table's floor and a least openness keep the target positive wherever the
 /// integrand is. `count` of them are kept, at most LightRays::most, by one number that steps evenly through the
 /// candidates' weights: shadows are cheap beside a point of cloth and its view, and what keeps one alone leaves the
-/// noise of a coin. Measured on satin, crepe, velvet and linen under six maps (docs/numbers.md): eight of each kind
-/// and eight kept have the least error at equal time.
+/// noise of a coin. Eight of each kind and eight kept are a middle, measured (docs/numbers.md, docs/study.md): satin
+/// in a studio would have more, velvet under an even sky fewer.
 void resample(const Scene& scene, const ClothPoint& point, const TableView& table, Sequence sequence,
               std::uint32_t index, int count, LightRays& out);
 

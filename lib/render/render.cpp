@@ -18,8 +18,8 @@ double now() {
 constexpr int least_samples = 16;  // below that E is not trusted to promise anything
 // An error so coarse may end a render before the first barrier, as soon as every replicate has a sample more: from 4
 // to 16 samples E falls to less than a half. Few samples have not met the rare bright ones yet, and the more noise
-// there is the more of it they do not know of: E comes out up to a fifth too small at 0.2 and a tenth at 0.1, in the
-// scenes of docs/error.md. So much below the error asked for it must be.
+// there is the more of it they do not know of: E comes out up to a fifth too small at 0.2 and a tenth at 0.1 in some
+// of the scenes of docs/error.md, also when it is right on average. So much below the error asked for it must be.
 constexpr double coarse_error = 0.03, unknown_per_error = 2.5;
 // Measured on 403 runs of those scenes: stated E over the real one is 0.91, 0.94, 0.96 at 4, 8, 12 samples.
 constexpr double unknown_per_sample = 0.45;

@@ -58,8 +58,8 @@ struct StudyResult {
   std::vector<StudyScene> scenes;
   std::vector<StudyRun> runs;
   std::vector<StudyPicture> pictures;
-  std::vector<std::string> skipped;  ///< what was left out and why, one sentence each
-  Strategy ours = Strategy::automatic;
+  std::vector<std::string> skipped;     ///< what was left out and why, one sentence each
+  Strategy ours = Strategy::automatic;  ///< what the program does unless told otherwise
   double seconds = 0, cpu_seconds = 0;
   bool interrupted = false;
 };

@@ -100,7 +100,7 @@ class Study {
   // it.
   double units_of(const StudyScene& scene, int samples) const {
     const double seeds = result_.settings.seeds, price = scene.bounces > 0 ? 2 : 1;
-    double units = reference_units(scene, samples);
+    double units = reference_units(samples);
     if (scene.all_strategies) units += seeds * double(strategy_names().size()) * 2.4 * samples;
     if (scene.ladder) units += seeds * double(ladder_strategies().size()) * ladder_top(scene, samples) * price;
     return units;
@@ -109,9 +109,8 @@ class Study {
   static int reference_samples(const StudyScene& scene, int samples) {
     return reference_factor * samples / (scene.bounces > 0 ? 2 : 1);
   }
-  static double reference_units(const StudyScene& scene, int samples) {
-    return reference_price * reference_samples(scene, samples) * (scene.bounces > 0 ? 2 : 1);
-  }
+  // With bounces half as many, each twice as dear.
+  static double reference_units(int samples) { return reference_price * reference_factor * samples; }
 
   static int ladder_top(const StudyScene& scene, int samples) { return scene.bounces > 0 ? samples : 2 * samples; }
 
@@ -178,11 +177,11 @@ class Study {
     if (clock_.stopped()) return;
     const Reference reference = make_reference(truth, s.reference_samples);
     s.reference_error = reference.own;
-    clock_.done(reference_units(s, at_equal_time));
+    clock_.done(reference_units(at_equal_time));
 
     const std::vector<std::pair<Strategy, int>> list = runs_of(s, scene);
     const size_t runs_before = result_.runs.size();
-    const double units = units_of(s, at_equal_time) - reference_units(s, at_equal_time);
+    const double units = units_of(s, at_equal_time) - reference_units(at_equal_time);
     for (int seed = 1; seed <= result_.settings.seeds; ++seed)
       for (const auto& [strategy, samples] : list) {
         add_run(index, scene, reference, strategy, samples, seed);
