@@ -1,6 +1,7 @@
 #include "assembly.h"
 
 #include "image/file.h"
+#include "render/candidates.h"
 
 namespace sateen::app {
 
@@ -24,6 +25,13 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
   if (flags.verify_plan && pilots)
     job.verdicts = verify_plan(scene, job.plan, flags.render.light, flags.render.seed, flags.render.threads);
   apply_plan(job.plan, scene, job.render.light);
+  LightSettings& light = job.render.light;
+  light.candidates = flags.switches.candidates.value_or(light.candidates);
+  if (pilots && !flags.switches.candidates && light.strategy == Strategy::resampled) {
+    const CandidateChoice choice = choose_candidates(scene, light, flags.render.seed, flags.render.threads);
+    light.candidates = choice.candidates;
+    job.candidates_reason = choice.reason;
+  }
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;
@@ -42,6 +50,8 @@ void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts) {
       flags.switches.bounces = read_integer("bounces", fact.value, 0, 64);
     else if (fact.name == "bounce share")
       flags.switches.bounce_share = float(read_number("bounce share", fact.value, 0.001, 1));
+    else if (fact.name == "candidates" && !flags.switches.candidates)
+      flags.switches.candidates = read_integer("candidates", fact.value, 1, 64);
     else if (fact.name == "strategy" && flags.strategy == strategy_name(Strategy::automatic))
       flags.render.light.strategy = strategy_from_name(fact.value);
 }

@@ -18,8 +18,8 @@ struct Assembly {
 /// nothing is measured: for a picture that is rendered already, whose flags keep_effects() has settled.
 Assembly assemble_picture(PictureFlags& flags, const std::string& command_line, bool pilots = true);
 
-/// The second half: plans a scene that has everything, takes out of it what the plan has off, and chooses the
-/// strategy for what is left.
+/// The second half: plans a scene that has everything, takes out of it what the plan has off, and chooses how many
+/// directions what is left wants to be lit from.
 PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Scene& scene,
                         const ColorManager& colors, const std::string& command_line, bool pilots = true);
 

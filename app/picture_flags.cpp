@@ -100,7 +100,7 @@ void add_quality(Command& c, PictureFlags& f) {
          fmt::format("how light is sampled (default: {}): {}", strategy_name(f.render.light.strategy),
                      fmt::join(strategy_names(), ", ")));
   c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
-            fmt::format("of each kind, for resampled (default: {})", f.render.light.candidates));
+            "of each kind, for resampled (default: 8, 4 or 2, by a pilot on the scene)");
   c.integer("--bounces", "N", f.render.light.bounces, 0, 64,
             "how often light may meet cloth or ground again (default: as often as the error asked for calls for)");
   add_approximation_flags(c, f.scene.approximations);
@@ -200,6 +200,7 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int samples) 
   if (f.switches.named_on(Effect::references)) f.stage.references = true;
   if (f.switches.named_off(Effect::references)) f.stage.references = false;
   f.switches.references = f.stage.references;
+  if (command.given("--candidates")) f.switches.candidates = f.render.light.candidates;
   if (command.given("--bounces")) {
     f.switches.bounces = f.render.light.bounces;
     const bool off = f.switches.named_off(Effect::interreflection), on = f.switches.named_on(Effect::interreflection);

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "console.h"
 #include "exit_code.h"
+#include "render/candidates.h"
 #include "signals.h"
 
 namespace sateen::app {
@@ -101,7 +102,8 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   w.member("exposure_ev", job.exposure_ev).member("exposure_metered", !flags.exposure_ev);
   w.member("working_space", job.working_space).member("color_config", job.color_config);
   w.member("display", job.display.display).member("view", job.display.view);
-  w.member("strategy", strategy_name(job.render.light.strategy));
+  w.member("strategy", strategy_name(job.render.light.strategy)).member("candidates", job.render.light.candidates);
+  if (!job.candidates_reason.empty()) w.member("candidates_reason", job.candidates_reason);
   w.member("effects", job.effects);
   w.key("plan").open_object();
   write_plan(w, job.plan);
@@ -148,8 +150,9 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
     if (!planned.on && !planned.missing && planned.effect != Effect::interreflection &&
         effect_info(planned.effect).switchable)
       print_note(fmt::format("{} off: {}", effect_info(planned.effect).name, planned.reason));
-  print_detail(fmt::format("strategy {}, effects {}, seed {}, {} threads", strategy_name(job.render.light.strategy),
-                           job.effects, job.render.seed, thread_count(job.render.threads)));
+  print_note(fmt::format("light sampled by {}", sampling_text(job.render.light, job.candidates_reason)));
+  print_detail(
+      fmt::format("effects {}, seed {}, {} threads", job.effects, job.render.seed, thread_count(job.render.threads)));
   print_detail(fmt::format("read and built: look {:.2f} s, mesh {:.2f} s, map {:.2f} s, ray tracer {:.2f} s ({})",
                            report.look_seconds, report.mesh_seconds, report.environment_seconds,
                            report.tracer_seconds, size_text(report.tracer_bytes)));

@@ -8,6 +8,7 @@
 #include "exit_code.h"
 #include "picture_report.h"
 #include "plan_report.h"
+#include "render/candidates.h"
 
 namespace sateen::app {
 
@@ -38,7 +39,7 @@ int run_plan(const std::vector<std::string>& words) {
   if (!voice.json) {
     print_result(plan_text(job.plan));
     print_result("\n" + levels_text(job.plan, report));
-    print_result(fmt::format("light is sampled by {}", strategy_name(job.render.light.strategy)));
+    print_result(fmt::format("light is sampled by {}", sampling_text(job.render.light, job.candidates_reason)));
   }
   const int code = report_verdicts(job.plan, job.verdicts) ? int(done) : int(failed);
   JsonWriter w;

@@ -60,6 +60,13 @@ void resample(const Scene& scene, const ClothPoint& point, const TableView& tabl
 
   std::array<float, 2 * most_candidates> density, target, running;
   table_pdfs(table, {c.wi.data(), c.count}, density.data());
+  if (c.count <= size_t(LightRays::most)) {  // room for all: plain multiple importance sampling
+    for (size_t i = 0; i < c.count; ++i) {
+      const float both = density[i] + (has_lights ? c.texel[i]->pdf_compensated : 0);
+      if (both > 0) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, 1 / (float(count) * both));
+    }
+    return;
+  }
   for (size_t i = 0; i < c.count; ++i) target[i] = density[i] * mean_component(c.texel[i]->radiance);
   if (const OpenDirections* const open = open_directions(scene, point))
     for (size_t i = 0; i < c.count; ++i)
@@ -74,7 +81,7 @@ void resample(const Scene& scene, const ClothPoint& point, const TableView& tabl
   }
   if (!(sum > 0)) return;
 
-  const int kept = std::min(count, LightRays::most);
+  constexpr int kept = LightRays::most;
   const float step = sum / float(kept), start = float(draw(sequence, Dimension::choice, index)) * step;
   const float share = step / float(count);  // what each that is kept stands for, times its target
   int k = 0;

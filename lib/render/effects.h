@@ -52,6 +52,7 @@ struct EffectSwitches {
   std::optional<int> bounces;         ///< of interreflection; 0 is off
   bool references = false;            ///< they are laid over the picture and take no part in its light
   std::optional<float> bounce_share;  ///< LightSettings::bounce_share
+  std::optional<int> candidates;      ///< LightSettings::candidates; empty: a pilot on the scene chooses
 
   bool named_on(Effect effect) const;
   bool named_off(Effect effect) const;

@@ -147,6 +147,7 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
     text("crop", fmt::format("{} {} {} {} of {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1, s.width, s.height));
   text("strategy", strategy_name(r.light.strategy));
   whole("candidates", r.light.candidates);
+  if (!job.candidates_reason.empty()) text("candidates_reason", job.candidates_reason);
   whole("bounces", r.light.bounces);
   for (const Approximation& each : approximation_list())
     text(underscored(each.name).c_str(), each.text(s.approximations));

@@ -16,6 +16,7 @@ struct PictureJob {
   float exposure_ev = 0;            ///< in force
   std::vector<std::string> layers;  ///< of an EXR, beside the beauty
   Plan plan;
+  std::string candidates_reason;  ///< of LightSettings::candidates; empty where nothing was tried
   std::vector<Verdict> verdicts;  ///< of --verify-plan
   std::string effects;            ///< in force, "gaps,self-shadowing"
   std::string color_config;       ///< ColorManager::description()

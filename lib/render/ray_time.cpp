@@ -1,5 +1,7 @@
 #include "render/ray_time.h"
 
+#include "integrator/light_rays.h"
+
 namespace sateen {
 
 namespace {
@@ -15,7 +17,8 @@ double proposals(const LightSettings& light) {
     case Strategy::environment:
       return 30;
     case Strategy::resampled:
-      return 370 + 120 * light.candidates;
+      // Where not all of them are kept they are weighed.
+      return 2 * light.candidates > LightRays::most ? 370 + 120 * light.candidates : 300 + 75 * light.candidates;
     default:
       return 220;
   }

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/candidates.h"
 #include "render/render.h"
 #include "study/study.h"
 #include "study/study_analysis.h"
@@ -144,7 +145,10 @@ class Study {
   Film render_film(const Scene& scene, Strategy strategy, int samples, std::uint32_t seed, int bounces,
                    StudyRun& run) {
     RenderSettings settings;
-    if (strategy != Strategy::automatic) settings.light.strategy = strategy;
+    if (strategy == Strategy::automatic)
+      settings.light.candidates = candidates_;
+    else
+      settings.light.strategy = strategy;
     settings.adaptive = strategy == Strategy::automatic;
     settings.light.bounces = bounces;
     settings.stop.spp = samples;
@@ -170,6 +174,8 @@ class Study {
     SceneReport report;
     const Scene scene = assemble_study_scene(scene_settings(s), colors_, report);
     s.light_share = half_light_share(scene.environment);
+    if (s.all_strategies) s.candidates = choose_candidates(scene, {}, 1, result_.settings.threads).candidates;
+    candidates_ = s.candidates;
     s.reference_samples = reference_samples(s, at_equal_time);
     StudyRun ignored;
     const Film truth =
@@ -294,6 +300,7 @@ class Study {
   const std::function<void(const StudyState&)>& observe_;
   WorkClock clock_;
   StudyResult result_;
+  int candidates_ = 0;  ///< of the scene that is being measured
 };
 
 }  // namespace

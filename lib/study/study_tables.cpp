@@ -76,7 +76,7 @@ Table ratio_table(const StudyResult& result) {
 }
 
 Table winner_table(const StudyResult& result) {
-  Table table{{"scene", "least MSE", "second", "beyond chance", "auto / least"}, {}};
+  Table table{{"scene", "least MSE", "second", "beyond chance", "candidates of auto", "auto / least"}, {}};
   for (int i = 0; i < int(result.scenes.size()); ++i) {
     if (!is_compared(result.scenes[size_t(i)])) continue;
     const Winner winner = scene_winner(result, i, Measure::relative);
@@ -84,6 +84,7 @@ Table winner_table(const StudyResult& result) {
     const Ratio ratio = equal_time_ratio(result, i, result.ours, winner.strategy, Measure::relative);
     table.rows.push_back({result.scenes[size_t(i)].label(), strategy_name(winner.strategy),
                           strategy_name(winner.second), winner.clear ? "yes" : "no",
+                          std::to_string(result.scenes[size_t(i)].candidates),
                           ratio.known ? fmt::format("{:.2f}", ratio.interval.value) : "-"});
   }
   return table;
@@ -111,7 +112,7 @@ std::string study_text(const StudyResult& result) {
   text += fmt::format(
       "MSE is relative: mean of (x - r)^2 / (r^2 + 0.01), working space at exposure 0. {} seeds, {} x {} pixels, "
       "equal time is\nthe CPU time of mis-compensated at {} samples. auto is what the program does unless told "
-      "otherwise: {},\nsamples dealt out by error. {:.0f} CPU-seconds.\n\n",
+      "otherwise: {} with\nas many candidates as its pilot chooses, samples dealt out by error. {:.0f} CPU-seconds.\n\n",
       result.settings.seeds, result.settings.scene.width, result.settings.scene.height, result.settings.samples,
       strategy_name(LightSettings().strategy), result.cpu_seconds);
   const auto part = [&](const char* title, const Table& table) {
