@@ -12,7 +12,9 @@ namespace sateen {
 
 namespace {
 
-constexpr double grazing_panel_deg = 8.5;  // a third of the widest panel; near the horizon no look needs shorter ones
+// At 8.5 ivory duchess satin, seen and lit from opposite ends of its warp, was off by 1.1e-3 of the peak in one pair
+// of 400,000, now by 1e-4; it costs 2 to 4 % of a picture.
+constexpr double grazing_panel_deg = 4.5;
 
 // The leading tangents of a curve that form whole panels of panel_nodes.
 size_t count_panel_nodes(const std::vector<Tangent>& tangents) {
@@ -140,11 +142,13 @@ Threads<Real> compile_curves(const Look& look, const std::vector<Tangent>& warp,
 template <class Real>
 Threads<Real> compile_threads(const Look& look, const std::vector<Tangent>& warp, const std::vector<Tangent>& weft) {
   Threads<Real> threads = compile_curves<Real>(look, warp, weft);
-  constexpr double panel = grazing_panel_deg * std::numbers::pi / 180;
-  const std::vector<Tangent> fine_warp = cut_panels(warp, panel), fine_weft = cut_panels(weft, panel);
-  const size_t count = fine_warp.size() + fine_weft.size();
-  if (count > warp.size() + weft.size() && count + padding <= most_tangents)
-    threads.grazing.push_back(compile_curves<Real>(look, fine_warp, fine_weft));
+  // Curves of very many tangents take what still fits.
+  for (double panel = grazing_panel_deg * std::numbers::pi / 180; threads.grazing.empty(); panel *= 2) {
+    const std::vector<Tangent> fine_warp = cut_panels(warp, panel), fine_weft = cut_panels(weft, panel);
+    const size_t count = fine_warp.size() + fine_weft.size();
+    if (count <= warp.size() + weft.size()) break;
+    if (count + padding <= most_tangents) threads.grazing.push_back(compile_curves<Real>(look, fine_warp, fine_weft));
+  }
   return threads;
 }
 

@@ -57,7 +57,7 @@ struct Threads {
   bool loose_slopes = false;  ///< some sloping segments are not in panels: finer rules that the tests measure with
   Real sign_change[panel_nodes + 1][panel_nodes];
 
-  /// The same curves with panels of 8.5 degrees at most, for pairs with a direction that grazes the cloth: there
+  /// The same curves with panels of 4.5 degrees at most, for pairs with a direction that grazes the cloth: there
   /// everything turns faster along a thread. One entry, or none where all panels are that short.
   std::vector<Threads> grazing;
 };
