@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "render/candidates.h"
 #include "render/error_scenes.h"
 
 // Claimed errors against real ones: short renders and references of 64 times their samples from another seed. What is
@@ -60,29 +61,32 @@ struct Tally {
   int runs = 0, near = 0, in_interval = 0, met = 0, met_of = 0, scenes = 0, covered = 0;
 };
 
-RenderSettings settings_for(const ErrorScene& scene, std::uint32_t seed, bool adaptive) {
+/// As the program renders it: with as many candidates as its pilot chooses.
+RenderSettings settings_for(const ErrorScene& scene, int candidates, std::uint32_t seed, bool adaptive) {
   RenderSettings settings = samples(spp, seed);
   settings.light.bounces = scene.bounces;
+  settings.light.candidates = candidates;
   settings.adaptive = adaptive;
   return settings;
 }
 
 void judge(const ErrorScene& which, int width, int height, int seeds, Tally& tally) {
   const Scene scene = scene_of(which, width, height);
-  RenderSettings settings = settings_for(which, 777, false);
+  const int candidates = choose_candidates(scene, {}, 1, 0).candidates;
+  RenderSettings settings = settings_for(which, candidates, 777, false);
   settings.stop.spp = spp * times;
   Film reference(width, height, false);
   render(scene, settings, reference);
   // A target that is met at about 64 samples.
   Film pilot(width, height, false);
-  const double target = render(scene, settings_for(which, 900, true), pilot).error.high;
+  const double target = render(scene, settings_for(which, candidates, 900, true), pilot).error.high;
 
   double worst = 1, mean_error = 0, samples_taken = 0;
   Coverage coverage;
   int near = 0, in_interval = 0, met = 0;
   for (int run = 0; run < 2 * seeds; ++run) {
     const bool adaptive = run >= seeds;
-    settings = settings_for(which, 10 + std::uint32_t(run), adaptive);
+    settings = settings_for(which, candidates, 10 + std::uint32_t(run), adaptive);
     if (adaptive) {
       settings.stop.spp = 0;
       settings.stop.error = target;
@@ -101,9 +105,10 @@ void judge(const ErrorScene& which, int width, int height, int seeds, Tally& tal
   tally.met += met, tally.met_of += seeds;
   ++tally.scenes, tally.covered += share >= 0.93 && share <= 0.97;
   if (std::getenv("SATEEN_TEST_NUMBERS"))
-    std::fprintf(stderr, "| %s | %.3f | %.0f | %.2f | %d/%d | %d/%d | %.1f | %.1f | %d/%d |\n",
-                 name_of(which).c_str(), mean_error / seeds, samples_taken / seeds, worst, near, 2 * seeds,
-                 in_interval, 2 * seeds, 100 * share, 100 * coverage.share_inside / coverage.share_all, met, seeds);
+    std::fprintf(stderr, "| %s | %d | %.3f | %.0f | %.2f | %d/%d | %d/%d | %.1f | %.1f | %d/%d |\n",
+                 name_of(which).c_str(), candidates, mean_error / seeds, samples_taken / seeds, worst, near,
+                 2 * seeds, in_interval, 2 * seeds, 100 * share, 100 * coverage.share_inside / coverage.share_all,
+                 met, seeds);
 }
 
 void expect_bars(const Tally& t) {
@@ -143,7 +148,8 @@ struct CoarseTally {
 
 void judge_coarse(const ErrorScene& which, int width, int height, int seeds, CoarseTally& tally) {
   const Scene scene = scene_of(which, width, height);
-  RenderSettings settings = settings_for(which, 777, false);
+  const int candidates = choose_candidates(scene, {}, 1, 0).candidates;
+  RenderSettings settings = settings_for(which, candidates, 777, false);
   settings.stop.spp = 1024;
   Film reference(width, height, false);
   render(scene, settings, reference);
@@ -151,7 +157,7 @@ void judge_coarse(const ErrorScene& which, int width, int height, int seeds, Coa
     int met = 0, early = 0;
     double ratio = 0, taken = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-      settings = settings_for(which, 10 + std::uint32_t(seed), true);
+      settings = settings_for(which, candidates, 10 + std::uint32_t(seed), true);
       settings.stop.spp = 0;
       settings.stop.error = target;
       Film film(width, height, false);
