@@ -21,7 +21,8 @@ int next_barrier(int samples);
 /// Adaptive: in proportion to sqrt(variance of one sample / (value^2 + 0.01)), which makes E least, pooled over the
 /// 24 pixels around a pixel WITHOUT the pixel itself: were its own samples to decide how many it gets, those that
 /// look wrong would be outweighed more often than others, and its mean would be biased. Nowhere fewer than there are,
-/// nor fewer than 1/16 of the mean; in eights, since samples of one pixel are cheaper together. Outside the window 0.
+/// nor fewer than 1/16 of the mean; powers of two and one and a half times those, where the sequences are even.
+/// Outside the window 0.
 std::vector<std::uint32_t> allocate(const Film& film, const Crop& window, int barrier, bool adaptive);
 
 /// Mean over the pixels with samples of those that went where there is noise: above a thousandth of its mean.

@@ -26,11 +26,11 @@ struct CandidateChoice {
 
 /// How many candidates of each kind `resampled` wants in this scene: 8, 4 or 2 (integrator/resample.h). What is noisy
 /// by its lights wants many, satin in a studio; where light comes evenly a pixel wants more places on the cloth
-/// instead, velvet under a sky. Tries them on some thousand pixels spread over the picture, direct light alone, and
-/// takes the least error at equal time. Its noise is a tenth, and so little is what a wrong choice costs. Time is
-/// counted in rays and candidates at measured costs, never by a clock: the same scene gives the same choice on every
-/// machine and any number of threads, and whatever number of samples is asked for, so that ranges of one picture
-/// agree. Takes about a twentieth of a CPU-second.
+/// instead, velvet under a sky. Tries them, fewer as long as that promises something, on some thousand pixels spread
+/// over the picture, direct light alone, and takes the least error at equal time. Its noise is a tenth, and so little
+/// is what a wrong choice costs. Time is counted in rays and candidates at measured costs, never by a clock: the same
+/// scene gives the same choice on every machine and any number of threads, and whatever number of samples is asked
+/// for, so that ranges of one picture agree. Takes about a twentieth of a CPU-second.
 CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, std::uint32_t seed, int threads);
 
 /// "resampled, 4 candidates of each kind: ..." for people; of another strategy its name, and no reason where it is
