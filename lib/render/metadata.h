@@ -40,7 +40,7 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
 /// the number of threads, the files' names or the command line.
 std::string job_hash(const PictureJob& job, const SceneReport& report);
 
-/// The `sateen:*` attributes of a finished picture (README.md lists them) and Software.
+/// The `sateen:*` attributes of a finished picture (docs/attributes.md lists them) and Software.
 Attributes picture_attributes(const PictureJob& job, const SceneReport& report, const RenderResult& result);
 
 /// A name with _ for its blanks, as attributes and JSON have it.
