@@ -25,13 +25,9 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
   if (flags.verify_plan && pilots)
     job.verdicts = verify_plan(scene, job.plan, flags.render.light, flags.render.seed, flags.render.threads);
   apply_plan(job.plan, scene, job.render.light);
-  LightSettings& light = job.render.light;
-  light.candidates = flags.switches.candidates.value_or(light.candidates);
-  if (pilots && !flags.switches.candidates && light.strategy == Strategy::resampled) {
-    const CandidateChoice choice = choose_candidates(scene, light, flags.render.seed, flags.render.threads);
-    light.candidates = choice.candidates;
-    job.candidates_reason = choice.reason;
-  }
+  if (pilots || flags.switches.candidates)
+    job.candidates_reason = settle_candidates(scene, flags.switches.candidates, job.render.light, flags.render.seed,
+                                              flags.render.threads);
   job.display = flags.display;
   job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sateen {
 
@@ -102,10 +103,9 @@ std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barr
   for (double& weight : weights) weight = std::sqrt(weight);
   // No noise anywhere: all the same.
   if (*std::max_element(weights.begin(), weights.end()) == 0) std::fill(weights.begin(), weights.end(), 1.0);
-  double largest = 0;
-  for (size_t i = 0; i < count; ++i) largest = std::max(largest, weights[i] = dithered(weights[i], i, width));
+  for (size_t i = 0; i < count; ++i) weights[i] = dithered(weights[i], i, width);
   const double wanted = double(barrier) * double(count), least = double(barrier) * least_share;
-  double smallest = largest;
+  double smallest = std::numeric_limits<double>::infinity();
   for (const double weight : weights)
     if (weight > 0) smallest = std::min(smallest, weight);
   // The scale at which the shares add up to what is wanted lies between these two.

@@ -59,6 +59,15 @@ CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light
   return choice;
 }
 
+std::string settle_candidates(const Scene& scene, const std::optional<int>& asked, LightSettings& light,
+                              std::uint32_t seed, int threads) {
+  if (asked) light.candidates = *asked;
+  if (asked || light.strategy != Strategy::resampled) return {};
+  const CandidateChoice choice = choose_candidates(scene, light, seed, threads);
+  light.candidates = choice.candidates;
+  return choice.reason;
+}
+
 std::string sampling_text(const LightSettings& light, const std::string& reason) {
   if (light.strategy != Strategy::resampled) return strategy_name(light.strategy);
   return fmt::format("{}, {} candidates of each kind{}{}", strategy_name(light.strategy), light.candidates,

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace sateen {
 /// What the pilot found of one number of candidates.
 struct CandidateTrial {
   int candidates = 0;        ///< of each kind
-  double squared_error = 0;  ///< E^2 (film/film.h) over the pilot's pixels
+  double squared_error = 0;  ///< E^2 (film/error.h) over the pilot's pixels
   double cost = 0;           ///< of a sample, [ns] of one core where the costs were measured
   /// E^2 at equal time, up to a constant. Where a sample costs less there are more of them, and E^2 of these
   /// sequences falls as about N^-1.25.
@@ -32,6 +33,10 @@ struct CandidateChoice {
 /// scene gives the same choice on every machine and any number of threads, and whatever number of samples is asked
 /// for, so that ranges of one picture agree. Takes about a twentieth of a CPU-second.
 CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, std::uint32_t seed, int threads);
+
+/// Sets light.candidates: to what is asked for; else of `resampled` to the pilot's choice, whose reason is returned.
+std::string settle_candidates(const Scene& scene, const std::optional<int>& asked, LightSettings& light,
+                              std::uint32_t seed, int threads);
 
 /// "resampled, 4 candidates of each kind: ..." for people; of another strategy its name, and no reason where it is
 /// empty.

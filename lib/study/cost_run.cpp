@@ -66,10 +66,7 @@ class CostMeasurement {
     LightSettings& light = result_.settings.light;
     result_.plan = make_plan(scene_, report.look, s.effects, plan_error, light, s.seed, s.threads);
     apply_plan(result_.plan, scene_, light);
-    if (s.effects.candidates)
-      light.candidates = *s.effects.candidates;
-    else if (light.strategy == Strategy::resampled)
-      light.candidates = choose_candidates(scene_, light, s.seed, s.threads).candidates;
+    settle_candidates(scene_, s.effects.candidates, light, s.seed, s.threads);
     exposure_ = s.exposure_ev.value_or(report.metered_ev);
     const double pixels = double(s.scene.width) * s.scene.height, share = std::min(1.0, s.pixels / pixels);
     result_.width = std::max(16, int(std::lround(s.scene.width * std::sqrt(share))));
