@@ -9,6 +9,9 @@ namespace sateen {
 namespace {
 
 constexpr int roulette_after = 3;  // bounces that are always followed
+// What is seen by way of other cloth needs fewer: E squared at equal time of the default picture with 4, 6, 8 and 16
+// is 1, 1.03, 1.07 and 1.15.
+constexpr int shadows_after_bounce = 4;
 
 struct Path {
   Vertex vertex;
@@ -140,7 +143,9 @@ void light_vertices(const Scene& scene, const LightSettings& settings, std::span
       ground[take(on_ground, ground_of, k)] = std::get<GroundPoint>(paths[k].vertex);
   if (on_cloth.count > 0) {
     std::array<LobeLight, batch_size> direct;
-    direct_light(scene, {cloth.data(), size_t(on_cloth.count)}, settings, on_cloth, scratch, direct.data());
+    LightSettings fewer = settings;
+    fewer.shadows = std::min(settings.shadows, shadows_after_bounce);
+    direct_light(scene, {cloth.data(), size_t(on_cloth.count)}, fewer, on_cloth, scratch, direct.data());
     for (size_t n = 0; n < size_t(on_cloth.count); ++n) {
       const Path& path = paths[cloth_of[n]];
       add_light(path.throughput * direct[n].total(), bounce, scratch.counts, light[path.start]);

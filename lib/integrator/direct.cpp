@@ -3,45 +3,58 @@
 #include <array>
 #include <cmath>
 
-#include "integrator/light_rays.h"
+#include "integrator/resample.h"
 
 namespace sateen {
 
 namespace {
 
-/// Share of light that comes from the environment to every point along its chosen rays: 0 or 1, or what gaps let
-/// pass.
-using Seen = std::array<std::array<float, LightRays::most>, batch_size>;
-void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, std::span<const LightRays> rays,
-                   RayCounts& counts, Seen& seen) {
-  static_assert(RayTracer::stream_size == LightRays::most * batch_size);
-  std::array<Ray, LightRays::most * batch_size> shadow;
-  std::array<float*, LightRays::most * batch_size> result;
-  size_t n = 0;
+/// Takes the light of the rays by what is in their way: nothing is left, all, or what gaps let pass.
+void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, LightRays& light, RayCounts& counts) {
+  std::array<Ray, RayTracer::stream_size> shadow;
+  std::array<LightRay*, RayTracer::stream_size> of;
+  std::array<float, RayTracer::stream_size> passed;
+  size_t count = 0;
+  const auto trace = [&] {
+    trace_shadow_rays(scene, {shadow.data(), count}, counts, passed.data());
+    for (size_t n = 0; n < count; ++n) {
+      of[n]->light *= passed[n];
+      of[n]->odds = passed[n];
+    }
+    count = 0;
+  };
   const Ground* const ground = solid_ground(scene);
   const bool moves = scene.shutter.has_value();
   for (size_t k = 0; k < points.size(); ++k)
-    for (size_t j = 0; j < rays[k].chosen().size(); ++j) {
-      const Vec3& direction = rays[k].rays[j].world;
-      seen[k][j] = 0;
+    for (LightRay& ray : light.of(k)) {
       // Above the shading horizon but below the triangle's: the cloth itself is in the way.
-      if (dot(direction, points[k].facing) <= 0) continue;
-      const Vec3 traced = moves ? turned_back(direction, points[k].object) : direction;
-      shadow[n].origin = offset_origin(points[k].surface, traced);
-      shadow[n].direction = traced;
-      if (ground) {
-        const Vec3 from = moves ? scene.shutter->to_world(shadow[n].origin, points[k].object) : shadow[n].origin;
-        if (meet_ground(*ground, from, direction, far_away)) continue;
+      bool open = dot(ray.world, points[k].facing) > 0;
+      const Vec3 direction = moves ? turned_back(ray.world, points[k].object) : ray.world;
+      const Vec3 origin = offset_origin(points[k].surface, direction);
+      if (open && ground) {
+        const Vec3 from = moves ? scene.shutter->to_world(origin, points[k].object) : origin;
+        open = !meet_ground(*ground, from, ray.world, far_away);
       }
-      result[n++] = &seen[k][j];
+      if (!open) {
+        ray.light = Color(0);
+        continue;
+      }
+      ray.odds = 1;
+      if (!scene.self_shadowing) continue;
+      shadow[count].origin = origin;
+      shadow[count].direction = direction;
+      of[count++] = &ray;
+      if (count == shadow.size()) trace();
     }
-  if (!scene.self_shadowing) {
-    for (size_t k = 0; k < n; ++k) *result[k] = 1;
-    return;
-  }
-  std::array<float, LightRays::most * batch_size> passed;
-  trace_shadow_rays(scene, {shadow.data(), n}, counts, passed.data());
-  for (size_t k = 0; k < n; ++k) *result[k] = passed[k];
+  trace();
+}
+
+/// The rays of a point that bring light, moved to the front.
+std::span<LightRay> open_rays(std::span<LightRay> rays) {
+  size_t count = 0;
+  for (const LightRay& ray : rays)
+    if (max_component(ray.light) > 0) rays[count++] = ray;
+  return rays.first(count);
 }
 
 /// F times `light` at a direction, split into lobes.
@@ -66,21 +79,21 @@ void trace_shadow_rays(const Scene& scene, std::span<const Ray> rays, RayCounts&
 
 void direct_light(const Scene& scene, std::span<const ClothPoint> points, const LightSettings& settings,
                   const SequenceBatch& samples, PathScratch& scratch, LobeLight* light) {
-  std::array<LightRays, batch_size> rays;
-  choose_light_rays(scene, points, settings, samples, scratch.samplers, rays);
-  Seen seen;
+  propose_light_rays(scene, points, settings, samples, scratch.samplers, scratch.light);
   scratch.counts.lit += std::int64_t(points.size());
-  trace_shadows(scene, points, rays, scratch.counts, seen);
+  trace_shadows(scene, points, scratch.light, scratch.counts);
+  const bool chooses = settings.strategy == Strategy::resampled;
+  Batch1 choice{};
+  if (chooses) choice = draw(samples, Dimension::choice);
   for (size_t k = 0; k < points.size(); ++k) {
     light[k] = {};
-    bool prepared = false;
     // A blocked direction costs no evaluation, and a point in full shadow not even the view's terms.
-    for (size_t j = 0; j < rays[k].chosen().size(); ++j) {
-      if (seen[k][j] == 0) continue;
-      if (!prepared) prepare_threads(*points[k].fabric, points[k].wo, scratch.view, points[k].own_values());
-      prepared = true;
-      add_lobes(scratch.view, points[k], rays[k].rays[j].wi, rays[k].rays[j].light * seen[k][j], light[k]);
-    }
+    std::span<LightRay> rays = open_rays(scratch.light.of(k));
+    if (rays.empty()) continue;
+    if (chooses && rays.size() > size_t(most_evaluations))
+      rays = rays.first(thin_out(rays, most_evaluations, choice[k]));
+    prepare_threads(*points[k].fabric, points[k].wo, scratch.view, points[k].own_values());
+    for (const LightRay& ray : rays) add_lobes(scratch.view, points[k], ray.wi, ray.light, light[k]);
   }
 }
 

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "integrator/strategy.h"
+#include "integrator/light_rays.h"
 #include "sampling/sampler.h"
 #include "scene/scene.h"
 
@@ -47,6 +47,7 @@ struct PathScratch {
   MovingRays moving;                             ///< of a batch, under a shutter
   std::array<ClothPoint, batch_size> cloth;      ///< of a batch, that its camera rays met
   std::array<GroundPoint, batch_size> ground;
+  LightRays light;  ///< of a batch
   RayCounts counts;
 };
 

@@ -58,66 +58,84 @@ void sample_each(const Environment& environment, FabricSampler sampler, const Se
 
 /// The points of a batch with their samplers' views.
 struct Batch {
-  const Environment& environment;
+  const Scene& scene;
   std::span<const ClothPoint> points;
   const SequenceBatch& samples;
   std::span<SamplerView> views;
-  std::span<LightRays> out;
+  LightRays& out;
+
+  /// Calls `add` for one point after the other and notes where the rays of each begin.
+  template <class Add>
+  void for_each_point(Add&& add) const {
+    out.rays.clear();
+    for (size_t k = 0; k < points.size(); ++k) {
+      add(k);
+      out.first[k + 1] = out.rays.size();
+    }
+  }
 
   void sample_fabric(FabricSampler sampler, FabricPicks& picks) const {
     sample_each(
-        environment, sampler, samples, [&](size_t k) -> const SamplerView& { return views[k]; },
+        scene.environment, sampler, samples, [&](size_t k) -> const SamplerView& { return views[k]; },
         [&](size_t k) -> const Frame& { return points[k].frame; }, picks);
   }
 
   void by_fabric(FabricSampler sampler) const {
     FabricPicks picks;
     sample_fabric(sampler, picks);
-    for (size_t k = 0; k < points.size(); ++k) {
-      if (!picks[k].wi) continue;
+    for_each_point([&](size_t k) {
+      if (!picks[k].wi) return;
       const float density = pdf(views[k], *picks[k].wi);
-      out[k].add(*picks[k].wi, picks[k].world, picks[k].texel->radiance, density > 0 ? 1 / density : 0);
-    }
+      out.add(*picks[k].wi, picks[k].world, picks[k].texel->radiance, density > 0 ? 1 / density : 0);
+    });
   }
 
   void by_environment() const {
     Picks picks;
-    pick_each(environment, EnvironmentDensity::radiance, samples, picks);
-    for (size_t k = 0; k < points.size(); ++k) {
-      if (!picks[k].texel) continue;
+    pick_each(scene.environment, EnvironmentDensity::radiance, samples, picks);
+    for_each_point([&](size_t k) {
+      if (!picks[k].texel) return;
       if (const Vec3 wi = points[k].frame.to_local(picks[k].direction); wi.z > 0)
-        out[k].add(wi, picks[k].direction, picks[k].texel->radiance, 1 / picks[k].texel->pdf_radiance);
-    }
+        out.add(wi, picks[k].direction, picks[k].texel->radiance, 1 / picks[k].texel->pdf_radiance);
+    });
+  }
+
+  void by_candidates(const LightSettings& settings) const {
+    const Batch1 u = draw(samples, Dimension::shadows);
+    for_each_point([&](size_t k) {
+      propose_candidates(scene, points[k], views[k].table, samples.sequence(int(k)), samples.index[k],
+                         settings.candidates, settings.shadows, u[k], out);
+    });
   }
 
   /// One direction of each kind, balance heuristic: each weighs 1 / (sum of both densities).
   void by_both(FabricSampler sampler, EnvironmentDensity density) const {
     Picks picks;
-    pick_each(environment, density, samples, picks);
+    pick_each(scene.environment, density, samples, picks);
     FabricPicks drawn;
     sample_fabric(sampler, drawn);
-    for (size_t k = 0; k < points.size(); ++k) {
+    for_each_point([&](size_t k) {
       const auto weight = [&](const Vec3& wi, const Environment::Texel& texel) {
         const float both = pdf(views[k], wi) + texel_pdf(texel, density);
         return both > 0 ? 1 / both : 0;
       };
       if (picks[k].texel)
         if (const Vec3 wi = points[k].frame.to_local(picks[k].direction); wi.z > 0)
-          out[k].add(wi, picks[k].direction, picks[k].texel->radiance, weight(wi, *picks[k].texel));
+          out.add(wi, picks[k].direction, picks[k].texel->radiance, weight(wi, *picks[k].texel));
       if (drawn[k].wi)
-        out[k].add(*drawn[k].wi, drawn[k].world, drawn[k].texel->radiance, weight(*drawn[k].wi, *drawn[k].texel));
-    }
+        out.add(*drawn[k].wi, drawn[k].world, drawn[k].texel->radiance, weight(*drawn[k].wi, *drawn[k].texel));
+    });
   }
 };
 
 }  // namespace
 
-void choose_light_rays(const Scene& scene, std::span<const ClothPoint> points, const LightSettings& settings,
-                       const SequenceBatch& samples, std::span<SamplerView> views, std::span<LightRays> out) {
+void propose_light_rays(const Scene& scene, std::span<const ClothPoint> points, const LightSettings& settings,
+                        const SequenceBatch& samples, std::span<SamplerView> views, LightRays& out) {
   const FabricSampler sampler = strategy_sampler(settings.strategy);
   if (settings.strategy != Strategy::environment)
     for (size_t k = 0; k < points.size(); ++k) prepare_sampler(*points[k].fabric, points[k].wo, sampler, views[k]);
-  const Batch batch{scene.environment, points, samples, views, out};
+  const Batch batch{scene, points, samples, views, out};
   switch (settings.strategy) {
     case Strategy::uniform:
     case Strategy::talk:
@@ -134,9 +152,7 @@ void choose_light_rays(const Scene& scene, std::span<const ClothPoint> points, c
       return batch.by_both(sampler, EnvironmentDensity::compensated);
     case Strategy::resampled:
     case Strategy::automatic:
-      for (size_t k = 0; k < points.size(); ++k)
-        resample(scene, points[k], views[k].table, samples.sequence(int(k)), samples.index[k], settings.candidates,
-                 out[k]);
+      return batch.by_candidates(settings);
   }
 }
 

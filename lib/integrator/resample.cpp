@@ -1,7 +1,6 @@
 #include "integrator/resample.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace sateen {
 
@@ -9,6 +8,7 @@ namespace {
 
 constexpr size_t most_candidates = batch_size;  // of each kind
 constexpr float least_open = 0.05f;  // what a direction that looks closed is worth: measured, 0.02 to 0.1 are alike
+constexpr size_t few = 8;            // candidates whose shadows are all traced
 
 struct Candidates {
   size_t count = 0;
@@ -48,8 +48,8 @@ void propose_scattering(const Environment& environment, const ClothPoint& point,
 
 }  // namespace
 
-void resample(const Scene& scene, const ClothPoint& point, const TableView& table, Sequence sequence,
-              std::uint32_t index, int count, LightRays& out) {
+void propose_candidates(const Scene& scene, const ClothPoint& point, const TableView& table, Sequence sequence,
+                        std::uint32_t index, int count, int shadows, double u, LightRays& out) {
   const Environment& environment = scene.environment;
   // Nothing of a constant map stands out from its mean: all of it is the table's.
   const bool has_lights = drawable(environment.by_compensated);
@@ -57,39 +57,41 @@ void resample(const Scene& scene, const ClothPoint& point, const TableView& tabl
   Candidates c;
   if (has_lights) propose_lights(environment, point, sequence, first, size_t(count), c);
   propose_scattering(environment, point, table, sequence, first, size_t(count), c);
-
-  std::array<float, 2 * most_candidates> density, target, running;
+  std::array<float, 2 * most_candidates> density;
   table_pdfs(table, {c.wi.data(), c.count}, density.data());
-  if (c.count <= size_t(LightRays::most)) {  // room for all: plain multiple importance sampling
-    for (size_t i = 0; i < c.count; ++i) {
-      const float both = density[i] + (has_lights ? c.texel[i]->pdf_compensated : 0);
-      if (both > 0) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, 1 / (float(count) * both));
-    }
-    return;
-  }
-  for (size_t i = 0; i < c.count; ++i) target[i] = density[i] * mean_component(c.texel[i]->radiance);
-  if (const OpenDirections* const open = open_directions(scene, point))
-    for (size_t i = 0; i < c.count; ++i)
-      target[i] *= std::max(openness_along(scene, point, *open, c.world[i]), least_open);
-  if (has_lights)
-    for (size_t i = 0; i < c.count; ++i) density[i] += c.texel[i]->pdf_compensated;
-  float sum = 0;
-  size_t last = 0;
+  const size_t before = out.rays.size();
   for (size_t i = 0; i < c.count; ++i) {
-    if (target[i] > 0) sum += target[i] / density[i], last = i;
-    running[i] = sum;
+    const float both = density[i] + (has_lights ? c.texel[i]->pdf_compensated : 0);
+    if (both > 0) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, 1 / (float(count) * both), density[i]);
   }
-  if (!(sum > 0)) return;
+  const std::span<LightRay> proposed = std::span(out.rays).subspan(before);
+  if (proposed.size() <= few) return;
+  if (const OpenDirections* const open = open_directions(scene, point))
+    for (LightRay& ray : proposed) ray.odds = std::max(openness_along(scene, point, *open, ray.world), least_open);
+  out.rays.resize(before + thin_out(proposed, shadows, u));
+}
 
-  constexpr int kept = LightRays::most;
-  const float step = sum / float(kept), start = float(draw(sequence, Dimension::choice, index)) * step;
-  const float share = step / float(count);  // what each that is kept stands for, times its target
-  int k = 0;
-  for (size_t i = 0; k < kept; ++i) {
-    const int before = k;
-    while (k < kept && (running[i] > start + step * float(k) || i == last)) ++k;
-    if (k > before) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, float(k - before) * share / target[i]);
+size_t thin_out(std::span<LightRay> rays, int most, double u) {
+  double sum = 0;
+  for (const LightRay& ray : rays) sum += double(ray.worth * ray.odds);
+  const double enough = sum / most;
+  double passed = u * enough;
+  size_t kept = 0;
+  for (const LightRay& ray : rays) {
+    const double worth = double(ray.worth * ray.odds);
+    if (!(worth > 0)) continue;
+    float stands_for = 1;
+    if (worth < enough) {
+      passed += worth;
+      if (passed < enough) continue;
+      passed -= enough;
+      stands_for = float(enough / worth);
+    }
+    rays[kept] = ray;
+    rays[kept].light *= stands_for;
+    rays[kept++].worth *= stands_for;
   }
+  return kept;
 }
 
 }  // namespace sateen

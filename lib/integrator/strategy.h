@@ -15,8 +15,9 @@ enum class Strategy {
   mis,              ///< table and map, balance heuristic, two shadow rays
   mis_compensated,  ///< table and compensated map, balance heuristic, two shadow rays
   mis_talk,         ///< the talk's sampler and map, balance heuristic, two shadow rays
-  resampled,  ///< candidates of table and compensated map, of which up to eight are kept (integrator/resample.h)
-  automatic   ///< the program's own way: `resampled`, in a study with candidates by the pilot, samples by error
+  resampled,        ///< candidates of table and compensated map, thinned out before and after their shadows
+                    ///< (integrator/resample.h)
+  automatic         ///< the program's own way: `resampled`, in a study with candidates by the pilot, samples by error
 };
 
 const std::vector<std::string>& strategy_names();      ///< in the order of the enum, without `automatic`
@@ -27,6 +28,7 @@ FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view mu
 struct LightSettings {
   Strategy strategy = Strategy::resampled;  ///< least error at equal time, docs/study.md
   int candidates = 8;  ///< of each kind, for resampling, 1 to 64; by a pilot in render/candidates.h
+  int shadows = 16;    ///< of resampling's candidates that are traced, about; measured, 8 to 24 are much alike
   int bounces = 0;     ///< light that meets cloth or ground again, 0 to 64
   /// Share of the samples that follow it, above 0 to 1; their light counts for the others. Light from fold to fold is
   /// smooth and dear: a part of the samples knows it well enough.

@@ -1,7 +1,5 @@
 #include "render/ray_time.h"
 
-#include "integrator/light_rays.h"
-
 namespace sateen {
 
 namespace {
@@ -17,8 +15,7 @@ double proposals(const LightSettings& light) {
     case Strategy::environment:
       return 30;
     case Strategy::resampled:
-      // Where not all of them are kept they are weighed.
-      return 2 * light.candidates > LightRays::most ? 370 + 120 * light.candidates : 300 + 75 * light.candidates;
+      return 720 + 185 * light.candidates;
     default:
       return 220;
   }
@@ -28,8 +25,8 @@ double shadow(const LightSettings& light) {
   switch (light.strategy) {
     case Strategy::environment:  // towards the same few lights rays run together
       return 320;
-    case Strategy::resampled:  // streams are longer
-      return 290;
+    case Strategy::resampled:  // streams are longer, and F, of a few of them, is with the point
+      return 106;
     default:
       return 390;
   }

@@ -16,13 +16,14 @@ enum class Dimension : std::uint32_t {
   talk_thread,  ///< thread tangent and lobe of the talk's sampler, 2D
   uniform,      ///< direction in the hemisphere, 2D
   environment,  ///< direction to the environment, 2D
-  choice,       ///< which candidate resampling keeps, 1D
+  choice,       ///< for which candidates of resampling F is evaluated, 1D
   gap,          ///< whether a ray passes between the threads, 1D
   roulette,     ///< whether a path goes on, 1D
   bounces,      ///< whether a sample follows light that meets cloth again, 1D
   lens,         ///< reserved for depth of field, 2D
   time,         ///< reserved for motion blur, 1D
-  pattern       ///< which look of a pattern is met, 1D
+  pattern,      ///< which look of a pattern is met, 1D
+  shadows       ///< which candidates of resampling get a shadow ray, 1D
 };
 
 /// The sequence of one pixel in one independent replicate of the picture.
