@@ -1,5 +1,6 @@
 #include "study/measure.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -7,7 +8,13 @@ namespace sateen {
 
 namespace {
 constexpr double floor_squared = 0.01;  // of E, film/film.h
+
+// Errors of independent pictures add up in their squares. Where a picture is as good as the reference the difference
+// is chance: half is left, so that logarithms can be taken.
+double without_own(double between, double own) {
+  return std::max(between - own, between / 2);
 }
+}  // namespace
 
 Reference make_reference(const Film& film, int samples) {
   Reference reference;
@@ -37,7 +44,8 @@ PictureMse mse_against(const Film& film, const Reference& reference) {
     }
   }
   const double count = 3 * double(film.pixels.size());
-  return {mse.absolute / count, mse.relative / count};
+  return {without_own(mse.absolute / count, reference.own.absolute),
+          without_own(mse.relative / count, reference.own.relative)};
 }
 
 double student_t(int degrees) {

@@ -20,7 +20,8 @@ struct Reference {
 };
 Reference make_reference(const Film& film, int samples);
 
-/// Contains the reference's own error: Reference::own must be small beside it. Films of the reference's size.
+/// Of a film to the truth: what lies between it and the reference less the reference's own error, and at least half
+/// of what lies between them. Films of the reference's size and independent of it.
 PictureMse mse_against(const Film& film, const Reference& reference);
 
 /// 97.5 % point of Student's t. `degrees` at least 1.

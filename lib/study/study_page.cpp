@@ -102,11 +102,11 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
       "of auto, a twentieth of a CPU-second a picture of any size, is not counted either.",
       fmt::format("{} scenes", result.scenes.size()), result.settings.scene.mesh, result.settings.scene.width,
       result.settings.scene.height, result.settings.seeds, "mis-compensated", result.settings.samples));
-  page.paragraph(
-      fmt::format("References are by {} with an independent seed. Their own error is estimated from the scatter of "
-                  "their replicates and is part of every MSE here: the third column says how large a part of the "
-                  "least one.",
-                  strategy_name(LightSettings().strategy)));
+  page.paragraph(fmt::format(
+      "References are by {} with an independent seed. Their own error is estimated from the scatter of "
+      "their replicates and taken off every MSE here: the third column says how large a part it is of the "
+      "least one.",
+      strategy_name(LightSettings().strategy)));
   page.table(reference_table(result));
   return page.html();
 }
