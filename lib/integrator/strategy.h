@@ -28,11 +28,11 @@ FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view mu
 struct LightSettings {
   Strategy strategy = Strategy::resampled;  ///< least error at equal time, docs/study.md
   int candidates = 8;  ///< of each kind, for resampling, 1 to 64; by a pilot in render/candidates.h
-  int shadows = 16;    ///< of resampling's candidates that are traced, about; measured, 8 to 24 are much alike
   int bounces = 0;     ///< light that meets cloth or ground again, 0 to 64
   /// Share of the samples that follow it, above 0 to 1; their light counts for the others. Light from fold to fold is
   /// smooth and dear: a part of the samples knows it well enough.
   float bounce_share = 1;
+  int shadows = 16;  ///< of resampling's candidates that are traced, about, 1 or more; 8 to 24 measure much alike
 };
 
 }  // namespace sateen
