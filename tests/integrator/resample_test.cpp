@@ -64,7 +64,7 @@ TEST(ThinOut, OfNothingIsNothing) {
   EXPECT_EQ(thin_out(none, 3, 0.5), 0u);
   std::vector<LightRay> worthless = rays_worth({0, 0, 0, 0});
   EXPECT_EQ(thin_out(worthless, 3, 0.5), 0u);
-  std::vector<LightRay> tiny = rays_worth({1e-38f, 1e-38f, 1e-38f, 1e-38f, 1e-38f, 1e-38f});
+  std::vector<LightRay> tiny = rays_worth({1e-30f, 1e-30f, 1e-30f, 1e-30f, 1e-30f, 1e-30f});
   const size_t kept = thin_out(tiny, 3, 0.5);
   ASSERT_GE(kept, 2u);
   for (size_t i = 0; i < kept; ++i) EXPECT_TRUE(std::isfinite(tiny[i].light.x + tiny[i].light.z));
