@@ -28,16 +28,18 @@ void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, Light
   for (size_t k = 0; k < points.size(); ++k)
     for (LightRay& ray : light.of(k)) {
       // Above the shading horizon but below the triangle's: the cloth itself is in the way.
-      bool open = dot(ray.world, points[k].facing) > 0;
-      const Vec3 direction = moves ? turned_back(ray.world, points[k].object) : ray.world;
-      const Vec3 origin = offset_origin(points[k].surface, direction);
-      if (open && ground) {
-        const Vec3 from = moves ? scene.shutter->to_world(origin, points[k].object) : origin;
-        open = !meet_ground(*ground, from, ray.world, far_away);
-      }
-      if (!open) {
+      if (dot(ray.world, points[k].facing) <= 0) {
         ray.light = Color(0);
         continue;
+      }
+      const Vec3 direction = moves ? turned_back(ray.world, points[k].object) : ray.world;
+      const Vec3 origin = offset_origin(points[k].surface, direction);
+      if (ground) {
+        const Vec3 from = moves ? scene.shutter->to_world(origin, points[k].object) : origin;
+        if (meet_ground(*ground, from, ray.world, far_away)) {
+          ray.light = Color(0);
+          continue;
+        }
       }
       ray.odds = 1;
       if (!scene.self_shadowing) continue;

@@ -167,18 +167,20 @@ TEST(StudyAnalysis, TheTalksClaimsAreCheckedByNumberAndExplainedWhereTheyFail) {
   EXPECT_NE(failed[0].why.find("falls as N^-1.5"), std::string::npos) << failed[0].why;
 }
 
+/// In [0, 1).
+double random(std::uint64_t& state) {
+  state = state * 6364136223846793005ull + 1442695040888963407ull;
+  return double(state >> 11) / 9007199254740992.0;
+}
+
 TEST(Jackknife, CoversTheMeanAboutAsOftenAsItSays) {
   // 400 means of 8 exponential-like values; a right interval misses 20 on average. The bounds 5 and 60 are passed by
   // chance with less than 1e-4 (skewed values cost some cover, which the upper bound allows for).
   std::uint64_t state = 7;
-  const auto random = [&] {
-    state = state * 6364136223846793005ull + 1442695040888963407ull;
-    return double(state >> 11) / 9007199254740992.0;
-  };
   int missed = 0;
   for (int trial = 0; trial < 400; ++trial) {
     std::vector<double> values;
-    for (int i = 0; i < 8; ++i) values.push_back(1 + random() + random());
+    for (int i = 0; i < 8; ++i) values.push_back(1 + random(state) + random(state));
     const Interval found = jackknife_interval(8, [&](int without) {
       double sum = 0;
       for (int i = 0; i < 8; ++i) sum += i + 1 == without ? 0 : values[size_t(i)];
@@ -192,14 +194,10 @@ TEST(Jackknife, CoversTheMeanAboutAsOftenAsItSays) {
 
 /// Pixels of 0.5 with uniform noise in every replicate, of which `half` is half the width.
 Film noisy_film(double half, std::uint64_t state) {
-  const auto random = [&] {
-    state = state * 6364136223846793005ull + 1442695040888963407ull;
-    return double(state >> 11) / 9007199254740992.0;
-  };
   Film film(128, 128, false);
   for (FilmPixel& pixel : film.pixels) {
     for (Vec3d& sum : pixel.beauty)
-      for (int c = 0; c < 3; ++c) sum[c] = 0.5 + half * (2 * random() - 1);
+      for (int c = 0; c < 3; ++c) sum[c] = 0.5 + half * (2 * random(state) - 1);
     pixel.samples = replicates;
   }
   return film;
