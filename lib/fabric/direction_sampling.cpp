@@ -33,15 +33,22 @@ Angles right_angles(float ya, float xa, float yb, float xb, float yc = 0, float 
   return {std::copysign(angle[0], ya), std::copysign(angle[1], yb), std::copysign(angle[2], yc)};
 }
 
+/// Where the shares of the first three slices end, one after the other; behind the last that has a share, nowhere.
+using SliceEnds = std::array<float, 3>;
+SliceEnds slice_ends(const TableView& view) {
+  SliceEnds ends;
+  float end = 0;
+  for (int k = 0; k < 3; ++k) ends[size_t(k)] = end += view.share[k];
+  for (int k = 2; k >= 0 && view.share[k + 1] == 0; --k) ends[size_t(k)] = 2;
+  return ends;
+}
+
 /// A direction in a slice as it is drawn: angles, and on which side of the warp.
 struct DrawnAngles {
   float theta, height, side;
 };
-DrawnAngles draw_angles(const TableView& view, double u_view, double u_theta, double u_phi) {
-  int k = 0;
-  for (float left = float(u_view) - view.share[0]; k < 3 && left >= 0; left -= view.share[++k]) {
-  }
-  while (k > 0 && view.share[k] == 0) --k;
+DrawnAngles draw_angles(const TableView& view, const SliceEnds& ends, double u_view, double u_theta, double u_phi) {
+  const int k = (float(u_view) >= ends[0]) + (float(u_view) >= ends[1]) + (float(u_view) >= ends[2]);
   const std::uint32_t* slice = view.slice[k];
 
   // Rows by u_theta, columns within the row by u_phi: a two-dimensional point set stays stratified.
@@ -142,11 +149,12 @@ float table_pdf(const TableView& view, const Vec3& wi) {
 void sample_table(const TableView& view, std::span<const double> u_view, std::span<const std::array<double, 2>> u,
                   Vec3* directions) {
   constexpr size_t width = Lanes::width;
+  const SliceEnds ends = slice_ends(view);
   for (size_t from = 0; from < u.size(); from += width) {
     const size_t count = std::min(u.size() - from, width);
     float theta[width] = {}, height[width] = {}, side[width];
     for (size_t i = 0; i < count; ++i) {
-      const DrawnAngles drawn = draw_angles(view, u_view[from + i], u[from + i][0], u[from + i][1]);
+      const DrawnAngles drawn = draw_angles(view, ends, u_view[from + i], u[from + i][0], u[from + i][1]);
       theta[i] = drawn.theta, height[i] = drawn.height, side[i] = drawn.side;
     }
     float sine[width], across[width], along[width], up[width];

@@ -25,29 +25,25 @@ void trace_shadows(const Scene& scene, std::span<const ClothPoint> points, Light
   };
   const Ground* const ground = solid_ground(scene);
   const bool moves = scene.shutter.has_value();
-  for (size_t k = 0; k < points.size(); ++k)
+  for (size_t k = 0; k < points.size(); ++k) {
+    const ClothPoint& point = points[k];
+    // They all leave on the side that is lit.
+    const Vec3 origin = offset_origin(point.surface, moves ? turned_back(point.facing, point.object) : point.facing);
+    const Vec3 from = moves ? scene.shutter->to_world(origin, point.object) : origin;
     for (LightRay& ray : light.of(k)) {
       // Above the shading horizon but below the triangle's: the cloth itself is in the way.
-      if (dot(ray.world, points[k].facing) <= 0) {
+      if (dot(ray.world, point.facing) <= 0 || (ground && meet_ground(*ground, from, ray.world, far_away))) {
         ray.light = Color(0);
         continue;
-      }
-      const Vec3 direction = moves ? turned_back(ray.world, points[k].object) : ray.world;
-      const Vec3 origin = offset_origin(points[k].surface, direction);
-      if (ground) {
-        const Vec3 from = moves ? scene.shutter->to_world(origin, points[k].object) : origin;
-        if (meet_ground(*ground, from, ray.world, far_away)) {
-          ray.light = Color(0);
-          continue;
-        }
       }
       ray.odds = 1;
       if (!scene.self_shadowing) continue;
       shadow[count].origin = origin;
-      shadow[count].direction = direction;
+      shadow[count].direction = moves ? turned_back(ray.world, point.object) : ray.world;
       of[count++] = &ray;
       if (count == shadow.size()) trace();
     }
+  }
   trace();
 }
 

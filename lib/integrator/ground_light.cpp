@@ -51,10 +51,7 @@ void light_on_ground(const Scene& scene, std::span<const GroundPoint> points, co
   if (with_map) {
     const Batch2 u = draw2(samples, Dimension::environment);
     std::array<EnvironmentPick, batch_size> picks;
-    for (size_t k = 0; k < points.size(); ++k) {
-      picks[k] = pick_environment(map, EnvironmentDensity::compensated, u[k][0], u[k][1]);
-      prefetch_texel(picks[k].texel);
-    }
+    pick_environment(map, EnvironmentDensity::compensated, {u.data(), points.size()}, picks.data());
     for (size_t k = 0; k < points.size(); ++k)
       choose(scene, points, k, picks[k].direction, *picks[k].texel, with_map, all);
   }

@@ -15,10 +15,7 @@ using Picks = std::array<EnvironmentPick, batch_size>;
 void pick_each(const Environment& environment, EnvironmentDensity density, const SequenceBatch& samples,
                Picks& picks) {
   const Batch2 u = draw2(samples, Dimension::environment);
-  for (size_t k = 0; k < size_t(samples.count); ++k) {
-    picks[k] = pick_environment(environment, density, u[k][0], u[k][1]);
-    if (picks[k].texel) prefetch_texel(picks[k].texel);
-  }
+  pick_environment(environment, density, {u.data(), size_t(samples.count)}, picks.data());
 }
 
 /// Directions of a batch that the fabric's sampler proposes, with the texels that they fall into.

@@ -20,8 +20,9 @@ void propose_lights(const Environment& environment, const ClothPoint& point, Seq
                     size_t count, Candidates& found) {
   std::array<std::array<double, 2>, most_candidates> u;
   draw2(sequence, Dimension::environment, first, {u.data(), count});
-  for (size_t j = 0; j < count; ++j) {
-    const EnvironmentPick pick = pick_environment(environment, EnvironmentDensity::compensated, u[j][0], u[j][1]);
+  std::array<EnvironmentPick, most_candidates> picks;
+  pick_environment(environment, EnvironmentDensity::compensated, {u.data(), count}, picks.data());
+  for (const EnvironmentPick& pick : std::span(picks).first(count)) {
     if (!pick.texel) return;
     const Vec3 wi = point.frame.to_local(pick.direction);
     if (!(wi.z > 0)) continue;

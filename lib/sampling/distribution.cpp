@@ -9,9 +9,43 @@ namespace sateen {
 namespace {
 constexpr double scale = 4294967296.0;
 
-std::uint64_t end_of(std::span<const std::uint32_t> starts, std::uint32_t used, std::uint32_t cell) {
+std::uint64_t end_of(const std::uint32_t* starts, std::uint32_t used, std::uint32_t cell) {
   return cell + 1 == used ? (std::uint64_t(1) << 32) : starts[cell + 1];
 }
+
+/// One look-up in a table: the cell that owns x lies among `length` cells from `first` on.
+struct Search {
+  const std::uint32_t* first;
+  std::uint32_t length, key;
+  double x;
+};
+
+Search begin_search(const std::uint32_t* starts, double u, const std::uint32_t* guide, std::size_t parts) {
+  const double below_one = std::clamp(u, 0.0, 1.0 - 0x1p-53);
+  const auto part = std::size_t(below_one * double(parts));
+  const double x = below_one * scale;
+  return {starts + guide[part], guide[part + 1] - guide[part] + 1, std::uint32_t(x), x};
+}
+
+/// Narrows all of them down to the last cell that starts at or before the key; equal starts are empty cells followed
+/// by the one that owns them. In step: their ways to memory overlap, and what is done with early does nothing.
+void find_cells(std::span<Search> searches) {
+  std::uint32_t longest = 1;
+  for (const Search& search : searches) longest = std::max(longest, search.length);
+  for (; longest > 1; longest -= longest / 2)
+    for (Search& search : searches) {
+      const std::uint32_t half = search.length / 2;
+      search.first = search.first[half] <= search.key ? search.first + half : search.first;
+      search.length -= half;
+    }
+}
+
+CellSample found_cell(const Search& search, const std::uint32_t* starts, std::uint32_t used) {
+  const auto cell = std::uint32_t(search.first - starts);
+  const std::uint64_t start = starts[cell], count = end_of(starts, used, cell) - start;
+  return {cell, std::min((search.x - double(start)) / double(count), 1.0 - 0x1p-53), double(count) / scale};
+}
+
 }  // namespace
 
 std::uint32_t tabulate(std::span<const double> weights, std::span<std::uint32_t> starts) {
@@ -53,21 +87,9 @@ std::uint32_t tabulate(std::span<const double> weights, std::span<std::uint32_t>
 CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u,
                         std::span<const std::uint32_t> guide) {
   if (used == 0) return {};
-  const double below_one = std::clamp(u, 0.0, 1.0 - 0x1p-53);
-  const auto part = std::size_t(below_one * double(guide.size() - 1));
-  const double x = below_one * scale;
-  const auto key = std::uint32_t(x);
-  // The last cell that starts at or before the key; equal starts are empty cells followed by the one that owns them.
-  const std::uint32_t* first = starts.data() + guide[part];
-  std::uint32_t length = guide[part + 1] - guide[part] + 1;
-  while (length > 1) {
-    const std::uint32_t half = length / 2;
-    first = first[half] <= key ? first + half : first;
-    length -= half;
-  }
-  const auto cell = std::uint32_t(first - starts.data());
-  const std::uint64_t start = starts[cell], count = end_of(starts, used, cell) - start;
-  return {cell, std::min((x - double(start)) / double(count), 1.0 - 0x1p-53), double(count) / scale};
+  Search search = begin_search(starts.data(), u, guide.data(), guide.size() - 1);
+  find_cells({&search, 1});
+  return found_cell(search, starts.data(), used);
 }
 
 CellSample sample_table(std::span<const std::uint32_t> starts, std::uint32_t used, double u) {
@@ -94,7 +116,7 @@ void tabulate_guide(std::span<const std::uint32_t> starts, std::uint32_t used, s
 
 double table_probability(std::span<const std::uint32_t> starts, std::uint32_t used, std::uint32_t cell) {
   if (cell >= used) return 0;
-  return double(end_of(starts, used, cell) - starts[cell]) / scale;
+  return double(end_of(starts.data(), used, cell) - starts[cell]) / scale;
 }
 
 Distribution1D build_distribution(std::span<const double> weights) {
@@ -114,13 +136,38 @@ double cell_probability(const Distribution1D& d, std::uint32_t cell) {
   return table_probability(d.starts, d.used, cell);
 }
 
+void sample_cells(const Distribution2D& d, std::span<const std::array<double, 2>> u, CellSample2D* out) {
+  constexpr std::size_t together = 16;
+  if (!drawable(d)) return void(std::fill_n(out, u.size(), CellSample2D{}));
+  const std::size_t width = std::size_t(d.width), entries = d.guide_parts + 1;
+  for (; !u.empty(); out += together, u = u.subspan(std::min(u.size(), together))) {
+    const std::size_t count = std::min(u.size(), together);
+    std::array<Search, together> search;
+    for (std::size_t k = 0; k < count; ++k)
+      search[k] = begin_search(d.rows.starts.data(), u[k][1], d.rows.guide.data(), d.rows.guide.size() - 1);
+    find_cells({search.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+      const CellSample row = found_cell(search[k], d.rows.starts.data(), d.rows.used);
+      out[k] = {0, row.cell, 0, row.offset, row.probability};
+      search[k] = begin_search(d.starts.data() + row.cell * width, u[k][0], d.guide.data() + row.cell * entries,
+                               d.guide_parts);
+    }
+    find_cells({search.data(), count});
+    for (std::size_t k = 0; k < count; ++k) {
+      CellSample2D& cell = out[k];
+      const CellSample column = found_cell(search[k], d.starts.data() + cell.y * width, d.used[cell.y]);
+      cell.x = column.cell;
+      cell.offset_x = column.offset;
+      cell.probability *= column.probability;
+    }
+  }
+}
+
 CellSample2D sample_cell(const Distribution2D& d, double u0, double u1) {
-  const CellSample row = sample_cell(d.rows, u1);
-  if (row.probability == 0) return {};
-  const auto width = std::size_t(d.width);
-  const std::span guide = std::span(d.guide).subspan(row.cell * (d.guide_parts + 1), d.guide_parts + 1);
-  const CellSample column = sample_table({d.starts.data() + row.cell * width, width}, d.used[row.cell], u0, guide);
-  return {column.cell, row.cell, column.offset, row.offset, row.probability * column.probability};
+  CellSample2D cell;
+  const std::array u{u0, u1};
+  sample_cells(d, {&u, 1}, &cell);
+  return cell;
 }
 
 double cell_probability(const Distribution2D& d, std::uint32_t x, std::uint32_t y) {

@@ -124,21 +124,34 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
   return e;
 }
 
-EnvironmentPick pick_environment(const Environment& e, EnvironmentDensity density, double u0, double u1) {
+void pick_environment(const Environment& e, EnvironmentDensity density, std::span<const std::array<double, 2>> u,
+                      EnvironmentPick* picks) {
+  constexpr size_t together = 16;
   const bool compensated = density == EnvironmentDensity::compensated && drawable(e.by_compensated);
-  const CellSample2D cell = sample_cell(compensated ? e.by_compensated : e.by_radiance, u0, u1);
-  if (cell.probability == 0) return {};
-  const double top = e.row_cosines[cell.y], bottom = e.row_cosines[cell.y + 1];
-  const double cosine = top + (bottom - top) * std::clamp(cell.offset_y, e.edge_y, 1 - e.edge_y);
-  const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
-  const double offset = std::clamp(cell.offset_x, e.edge_x, 1 - e.edge_x);
-  const SineCosine longitude = fast_sincos_turns((cell.x + offset) / e.width - 0.5 + e.rotation_turns);
-  return {Vec3(float(sine * longitude.sine), float(cosine), float(-sine * longitude.cosine)),
-          &e.texels[size_t(cell.y) * size_t(e.width) + cell.x]};
+  for (; !u.empty(); picks += together, u = u.subspan(std::min(u.size(), together))) {
+    const size_t count = std::min(u.size(), together);
+    std::array<CellSample2D, together> cells;
+    sample_cells(compensated ? e.by_compensated : e.by_radiance, u.first(count), cells.data());
+    for (size_t k = 0; k < count; ++k) {
+      const CellSample2D& cell = cells[k];
+      picks[k] = {};
+      if (cell.probability == 0) continue;
+      picks[k].texel = &e.texels[size_t(cell.y) * size_t(e.width) + cell.x];
+      prefetch_texel(picks[k].texel);
+      const double top = e.row_cosines[cell.y], bottom = e.row_cosines[cell.y + 1];
+      const double cosine = top + (bottom - top) * std::clamp(cell.offset_y, e.edge_y, 1 - e.edge_y);
+      const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
+      const double offset = std::clamp(cell.offset_x, e.edge_x, 1 - e.edge_x);
+      const SineCosine longitude = fast_sincos_turns((cell.x + offset) / e.width - 0.5 + e.rotation_turns);
+      picks[k].direction = Vec3(float(sine * longitude.sine), float(cosine), float(-sine * longitude.cosine));
+    }
+  }
 }
 
 EnvironmentSample sample_environment(const Environment& e, EnvironmentDensity density, double u0, double u1) {
-  const EnvironmentPick pick = pick_environment(e, density, u0, u1);
+  EnvironmentPick pick;
+  const std::array u{u0, u1};
+  pick_environment(e, density, {&u, 1}, &pick);
   if (!pick.texel) return {};
   return {pick.direction, pick.texel->radiance, texel_pdf(*pick.texel, density)};
 }

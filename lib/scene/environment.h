@@ -98,13 +98,15 @@ inline float environment_pdf(const Environment& environment, EnvironmentDensity 
 EnvironmentSample sample_environment(const Environment& environment, EnvironmentDensity density, double u0,
                                      double u1);
 
-/// The same without touching the texel: on a large map that read is a cache miss, which a caller hides by
-/// asking for it (prefetch_texel) and doing something else first. `texel` is null when the map is black.
+/// What the map proposes. `texel` is null when the map is black.
 struct EnvironmentPick {
-  Vec3 direction{0, 1, 0};
-  const Environment::Texel* texel = nullptr;
+  Vec3 direction;
+  const Environment::Texel* texel;
 };
-EnvironmentPick pick_environment(const Environment& environment, EnvironmentDensity density, double u0, double u1);
+/// The same for many, and without touching the texels: on a large map that read is a cache miss. They are asked for
+/// (prefetch_texel), and a caller does something else first.
+void pick_environment(const Environment& environment, EnvironmentDensity density,
+                      std::span<const std::array<double, 2>> u, EnvironmentPick* picks);
 
 inline void prefetch_texel(const Environment::Texel* texel) {
   __builtin_prefetch(texel);

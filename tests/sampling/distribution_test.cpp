@@ -216,5 +216,30 @@ TEST(Distribution, HoldsAMapSixteenThousandWide) {
   EXPECT_EQ(last.y, 8191u);
 }
 
+// Whatever their number; a row that is empty and one of a single cell among them.
+TEST(Distribution2D, ManyAreDrawnAsOneAfterTheOther) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform;
+  const Distribution2D d = build_distribution(57, 9, [&](int y, std::span<double> row) {
+    for (double& w : row) w = y == 3 ? 0 : std::pow(uniform(random), 12);
+    if (y == 4) std::fill(row.begin() + 1, row.end(), 0.0);
+  });
+  for (const size_t count : {size_t(0), size_t(1), size_t(15), size_t(16), size_t(17), size_t(1000)}) {
+    std::vector<std::array<double, 2>> u(count);
+    for (auto& each : u) each = {uniform(random), uniform(random)};
+    std::vector<CellSample2D> cells(count);
+    sample_cells(d, u, cells.data());
+    for (size_t k = 0; k < count; ++k) {
+      const CellSample2D one = sample_cell(d, u[k][0], u[k][1]);
+      EXPECT_EQ(cells[k].x, one.x);
+      EXPECT_EQ(cells[k].y, one.y);
+      EXPECT_EQ(cells[k].offset_x, one.offset_x);
+      EXPECT_EQ(cells[k].offset_y, one.offset_y);
+      EXPECT_EQ(cells[k].probability, one.probability);
+      EXPECT_EQ(cells[k].probability, cell_probability(d, one.x, one.y));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sateen
