@@ -47,7 +47,7 @@ void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts) {
     else if (fact.name == "bounce share")
       flags.switches.bounce_share = float(read_number("bounce share", fact.value, 0.001, 1));
     else if (fact.name == "candidates" && !flags.switches.candidates)
-      flags.switches.candidates = read_integer("candidates", fact.value, 1, 64);
+      flags.switches.candidates = candidates_from_text(fact.value);
     else if (fact.name == "strategy" && flags.strategy == strategy_name(Strategy::automatic))
       flags.render.light.strategy = strategy_from_name(fact.value);
 }

@@ -99,8 +99,11 @@ void add_quality(Command& c, PictureFlags& f) {
   c.text("--strategy", "NAME", f.strategy,
          fmt::format("how light is sampled (default: {}): {}", strategy_name(f.render.light.strategy),
                      fmt::join(strategy_names(), ", ")));
-  c.integer("--candidates", "N", f.render.light.candidates, 1, 64,
-            "of each kind, for resampled (default: 8, 4 or 2, by a pilot on the scene)");
+  c.custom(
+      "--candidates", "N|TABLE+MAP", 1, 1,
+      [&f](const auto& w) { f.render.light.candidates = candidates_from_text(w.back()); },
+      "directions that a point looks into for light, for resampled: N of each kind, or by the cloth's table and by "
+      "the map, such as 4+16 (default: by a pilot on the scene)");
   c.integer("--bounces", "N", f.render.light.bounces, 0, 64,
             "how often light may meet cloth or ground again (default: as often as the error asked for calls for)");
   add_approximation_flags(c, f.scene.approximations);

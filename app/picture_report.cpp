@@ -102,7 +102,8 @@ void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, 
   w.member("exposure_ev", job.exposure_ev).member("exposure_metered", !flags.exposure_ev);
   w.member("working_space", job.working_space).member("color_config", job.color_config);
   w.member("display", job.display.display).member("view", job.display.view);
-  w.member("strategy", strategy_name(job.render.light.strategy)).member("candidates", job.render.light.candidates);
+  w.member("strategy", strategy_name(job.render.light.strategy))
+      .member("candidates", candidates_text(job.render.light.candidates));
   if (!job.candidates_reason.empty()) w.member("candidates_reason", job.candidates_reason);
   w.member("effects", job.effects);
   w.key("plan").open_object();

@@ -100,8 +100,8 @@ struct Batch {
   void by_candidates(const LightSettings& settings) const {
     const Batch1 u = draw(samples, Dimension::shadows);
     for_each_point([&](size_t k) {
-      propose_candidates(scene, points[k], views[k].table, samples.sequence(int(k)), samples.index[k],
-                         settings.candidates, settings.shadows, u[k], out);
+      propose_candidates(scene, points[k], views[k].table, samples.sequence(int(k)), samples.index[k], settings, u[k],
+                         out);
     });
   }
 

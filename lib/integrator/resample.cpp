@@ -6,7 +6,6 @@ namespace sateen {
 
 namespace {
 
-constexpr size_t most_candidates = batch_size;  // of each kind
 constexpr float least_open = 0.05f;  // what a direction that looks closed is worth: measured, 0.02 to 0.1 are alike
 constexpr size_t few = 8;            // candidates whose shadows are all traced
 
@@ -26,7 +25,6 @@ void propose_lights(const Environment& environment, const ClothPoint& point, Seq
     if (!pick.texel) return;
     const Vec3 wi = point.frame.to_local(pick.direction);
     if (!(wi.z > 0)) continue;
-    prefetch_texel(pick.texel);
     found.wi[found.count] = wi;
     found.world[found.count] = pick.direction;
     found.texel[found.count++] = pick.texel;
@@ -50,26 +48,26 @@ void propose_scattering(const Environment& environment, const ClothPoint& point,
 }  // namespace
 
 void propose_candidates(const Scene& scene, const ClothPoint& point, const TableView& table, Sequence sequence,
-                        std::uint32_t index, int count, int shadows, double u, LightRays& out) {
+                        std::uint32_t index, const LightSettings& settings, double u, LightRays& out) {
   const Environment& environment = scene.environment;
   // Nothing of a constant map stands out from its mean: all of it is the table's.
-  const bool has_lights = drawable(environment.by_compensated);
-  const std::uint32_t first = index * std::uint32_t(count);
+  const auto by_table = std::uint32_t(settings.candidates.table);
+  const auto by_map = drawable(environment.by_compensated) ? std::uint32_t(settings.candidates.map) : 0;
   Candidates c;
-  if (has_lights) propose_lights(environment, point, sequence, first, size_t(count), c);
-  propose_scattering(environment, point, table, sequence, first, size_t(count), c);
+  if (by_map > 0) propose_lights(environment, point, sequence, index * by_map, by_map, c);
+  propose_scattering(environment, point, table, sequence, index * by_table, by_table, c);
   std::array<float, 2 * most_candidates> density;
   table_pdfs(table, {c.wi.data(), c.count}, density.data());
   const size_t before = out.rays.size();
   for (size_t i = 0; i < c.count; ++i) {
-    const float both = density[i] + (has_lights ? c.texel[i]->pdf_compensated : 0);
-    if (both > 0) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, 1 / (float(count) * both), density[i]);
+    const float both = float(by_table) * density[i] + (by_map > 0 ? float(by_map) * c.texel[i]->pdf_compensated : 0);
+    if (both > 0) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, 1 / both, density[i]);
   }
   const std::span<LightRay> proposed = std::span(out.rays).subspan(before);
   if (proposed.size() <= few) return;
   if (const OpenDirections* const open = open_directions(scene, point))
     for (LightRay& ray : proposed) ray.odds = std::max(openness_along(scene, point, *open, ray.world), least_open);
-  out.rays.resize(before + thin_out(proposed, shadows, u));
+  out.rays.resize(before + thin_out(proposed, settings.shadows, u));
 }
 
 size_t thin_out(std::span<LightRay> rays, int most, double u) {

@@ -25,10 +25,25 @@ Strategy strategy_from_name(const std::string& name);  ///< "auto" is `resampled
 std::string strategy_name(Strategy strategy);
 FabricSampler strategy_sampler(Strategy strategy);  ///< what the fabric view must be prepared for
 
+/// Into how many directions a point of cloth looks for light, for resampling: those that its table proposes, 1 to
+/// most_candidates, and those that the compensated map does, from 0.
+struct CandidateCounts {
+  int table, map;
+
+  constexpr CandidateCounts(int each) : table(each), map(each) {}
+  constexpr CandidateCounts(int of_table, int of_map) : table(of_table), map(of_map) {}
+  bool operator==(const CandidateCounts&) const = default;
+};
+
+inline constexpr int most_candidates = 64;  ///< of a kind
+
+std::string candidates_text(const CandidateCounts& counts);     ///< "8" for both kinds, else "4+16", table first
+CandidateCounts candidates_from_text(const std::string& text);  ///< the inverse; InputError with the forms
+
 struct LightSettings {
   Strategy strategy = Strategy::resampled;  ///< least error at equal time, docs/study.md
-  int candidates = 8;  ///< of each kind, for resampling, 1 to 64; by a pilot in render/candidates.h
-  int bounces = 0;     ///< light that meets cloth or ground again, 0 to 64
+  CandidateCounts candidates = 8;           ///< by a pilot in render/candidates.h
+  int bounces = 0;                          ///< light that meets cloth or ground again, 0 to 64
   /// Share of the samples that follow it, above 0 to 1; their light counts for the others. Light from fold to fold is
   /// smooth and dear: a part of the samples knows it well enough.
   float bounce_share = 1;

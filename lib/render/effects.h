@@ -47,12 +47,12 @@ Effect effect_from_name(const std::string& name);
 /// What the user said of effects.
 struct EffectSwitches {
   enum class Rest { automatic, all, none };
-  Rest rest = Rest::automatic;        ///< of the effects that are not named
-  std::vector<Effect> on, off;        ///< named
-  std::optional<int> bounces;         ///< of interreflection; 0 is off
-  bool references = false;            ///< they are laid over the picture and take no part in its light
-  std::optional<float> bounce_share;  ///< LightSettings::bounce_share
-  std::optional<int> candidates;      ///< LightSettings::candidates; empty: a pilot on the scene chooses
+  Rest rest = Rest::automatic;                ///< of the effects that are not named
+  std::vector<Effect> on, off;                ///< named
+  std::optional<int> bounces;                 ///< of interreflection; 0 is off
+  bool references = false;                    ///< they are laid over the picture and take no part in its light
+  std::optional<float> bounce_share;          ///< LightSettings::bounce_share
+  std::optional<CandidateCounts> candidates;  ///< LightSettings::candidates; empty: a pilot on the scene chooses
 
   bool named_on(Effect effect) const;
   bool named_off(Effect effect) const;

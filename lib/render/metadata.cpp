@@ -77,7 +77,7 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
       {"size", fmt::format("{} x {}", s.width, s.height), {}},
       {"crop", fmt::format("{} {} {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1), {}},
       {"strategy", strategy_name(r.light.strategy), {}},
-      {"candidates", number(r.light.candidates), {}},
+      {"candidates", candidates_text(r.light.candidates), {}},
       {"bounces", number(r.light.bounces), {}},
       {"bounce share", number(r.light.bounce_share), {}},
       {"seed", number(r.seed), {}},
@@ -146,7 +146,7 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   if (r.crop.x1 > r.crop.x0)
     text("crop", fmt::format("{} {} {} {} of {} {}", r.crop.x0, r.crop.y0, r.crop.x1, r.crop.y1, s.width, s.height));
   text("strategy", strategy_name(r.light.strategy));
-  whole("candidates", r.light.candidates);
+  text("candidates", candidates_text(r.light.candidates));
   if (!job.candidates_reason.empty()) text("candidates_reason", job.candidates_reason);
   whole("bounces", r.light.bounces);
   for (const Approximation& each : approximation_list())

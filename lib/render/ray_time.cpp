@@ -15,7 +15,7 @@ double proposals(const LightSettings& light) {
     case Strategy::environment:
       return 30;
     case Strategy::resampled:
-      return 720 + 185 * light.candidates;
+      return 900 + 86 * light.candidates.table + 69 * light.candidates.map;
     default:
       return 220;
   }
@@ -26,7 +26,7 @@ double shadow(const LightSettings& light) {
     case Strategy::environment:  // towards the same few lights rays run together
       return 320;
     case Strategy::resampled:  // streams are longer, and F, of a few of them, is with the point
-      return 106;
+      return 102;
     default:
       return 390;
   }

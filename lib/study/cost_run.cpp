@@ -251,14 +251,15 @@ class CostMeasurement {
     list.biased = list.advised = false;
     list.note = "of strategy resampled; true error squared times time decides";
     std::vector<Step> steps;
-    for (const int number : {1, 2, 4, 8, 16}) {
+    const CandidateCounts settled = result_.settings.light.candidates;
+    std::vector<CandidateCounts> counts{1, 2, 4, 8, 16};
+    if (own && std::find(counts.begin(), counts.end(), settled) == counts.end()) counts.push_back(settled);
+    for (const CandidateCounts& each : counts) {
       LightSettings light = result_.settings.light;
       light.strategy = Strategy::resampled;
-      light.candidates = number;
-      steps.push_back({fmt::format("{}", number),
-                       {"--strategy resampled", fmt::format("--candidates {}", number)},
-                       own && number == result_.settings.light.candidates,
-                       light});
+      light.candidates = each;
+      const std::string text = candidates_text(each);
+      steps.push_back({text, {"--strategy resampled", "--candidates " + text}, own && each == settled, light});
     }
     measure_list(std::move(list), steps);
   }

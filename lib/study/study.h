@@ -38,9 +38,9 @@ struct StudyScene {
   bool all_strategies = false;  ///< measured with all of them at equal time; else `uniform`, `talk`, `table` alone
   bool ladder = false;          ///< measured at growing samples: one of the talk's figures
   int reference_samples = 0;
-  PictureMse reference_error{};                 ///< Reference::own
-  double light_share = 0;                       ///< half_light_share()
-  int candidates = LightSettings().candidates;  ///< that `automatic` settled on
+  PictureMse reference_error{};                             ///< Reference::own
+  double light_share = 0;                                   ///< half_light_share()
+  CandidateCounts candidates = LightSettings().candidates;  ///< that `automatic` settled on
   bool finished = false;
 
   std::string label() const;  ///< "velvet, overcast", "velvet, overcast, 2 bounces"

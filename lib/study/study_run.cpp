@@ -300,7 +300,7 @@ class Study {
   const std::function<void(const StudyState&)>& observe_;
   WorkClock clock_;
   StudyResult result_;
-  int candidates_ = 0;  ///< of the scene that is being measured
+  CandidateCounts candidates_ = LightSettings().candidates;  ///< of the scene that is being measured
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ Table winner_table(const StudyResult& result) {
     const Ratio ratio = equal_time_ratio(result, i, result.ours, winner.strategy, Measure::relative);
     table.rows.push_back({result.scenes[size_t(i)].label(), strategy_name(winner.strategy),
                           strategy_name(winner.second), winner.clear ? "yes" : "no",
-                          std::to_string(result.scenes[size_t(i)].candidates),
+                          candidates_text(result.scenes[size_t(i)].candidates),
                           ratio.known ? fmt::format("{:.2f}", ratio.interval.value) : "-"});
   }
   return table;
@@ -112,7 +112,8 @@ std::string study_text(const StudyResult& result) {
   text += fmt::format(
       "MSE is relative: mean of (x - r)^2 / (r^2 + 0.01), working space at exposure 0. {} seeds, {} x {} pixels, "
       "equal time is\nthe CPU time of mis-compensated at {} samples. auto is what the program does unless told "
-      "otherwise: {} with\nas many candidates as its pilot chooses, samples dealt out by error. {:.0f} CPU-seconds.\n\n",
+      "otherwise: {} with\nas many candidates as its pilot chooses, samples dealt out by error. {:.0f} "
+      "CPU-seconds.\n\n",
       result.settings.seeds, result.settings.scene.width, result.settings.scene.height, result.settings.samples,
       strategy_name(LightSettings().strategy), result.cpu_seconds);
   const auto part = [&](const char* title, const Table& table) {

@@ -157,7 +157,7 @@ void strategies() {
       "E^2 x CPU-seconds at 64 samples (smaller is better), 240x135, drape at level 2; * the least of a row\n");
   struct Entry {
     Strategy strategy;
-    int candidates;
+    CandidateCounts candidates;
     const char* label;
   };
   const Entry entries[] = {{Strategy::table, 1, "table"},
@@ -168,7 +168,10 @@ void strategies() {
                            {Strategy::resampled, 1, "res 1"},
                            {Strategy::resampled, 2, "res 2"},
                            {Strategy::resampled, 4, "res 4"},
-                           {Strategy::resampled, 8, "res 8"}};
+                           {Strategy::resampled, 8, "res 8"},
+                           {Strategy::resampled, {8, 4}, "res 8+4"},
+                           {Strategy::resampled, {4, 16}, "res 4+16"},
+                           {Strategy::resampled, {2, 8}, "res 2+8"}};
   fmt::print("{:<28}{:<20}", "look", "map");
   for (const Entry& e : entries) fmt::print("{:>12}", e.label);
   fmt::print("\n");

@@ -196,7 +196,7 @@ TEST(Sun, StraightAboveGivesFTimesItsIrradiance) {
       // 1 direction in 100,000 meets the small one: only who knows the map can be held to it. MIS leaves the table
       // its density times the texel's solid angle, here 1.6e-5: below the slack, as it must be where the table never
       // draws the texel and neither value nor standard error know of that share.
-      if (width == 128 && !knows_the_map(settings.light.strategy)) continue;
+      if (width == 128 && !knows_the_map(settings.light)) continue;
       expect_value(estimate(scene, settings.light, 1024), expected, bound(2 * all.size() * 3), 1e-4, settings.name);
     }
   }
@@ -229,7 +229,7 @@ TEST(Sun, OfTheClosedFormGivesItsValueWithoutAnyCodeOfTheClothModel) {
   const Color expected =
       sun.integral([](const Vec3& d) { return Color(1, 0.5f, 0.25f) * float(closed_form_value(to_floor(d))); });
   for (const NamedSettings& settings : all_settings())
-    if (knows_the_map(settings.light.strategy))
+    if (knows_the_map(settings.light))
       expect_value(estimate(scene, settings.light, 512), expected, bound(21), 1e-4, settings.name);
 }
 
@@ -252,7 +252,7 @@ TEST(Shadow, OfARoofIsBlack) {
     const Estimate dark = estimate(scene, settings.light, 256);
     for (int c = 0; c < 3; ++c) EXPECT_EQ(dark.channel[c].mean, 0) << settings.name;
     EXPECT_EQ(dark.alpha, 1);
-    if (knows_the_map(settings.light.strategy)) {
+    if (knows_the_map(settings.light)) {
       EXPECT_GT(estimate(open, settings.light, 256).channel[0].mean, 0) << settings.name;
     }
   }

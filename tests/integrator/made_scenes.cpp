@@ -95,9 +95,10 @@ std::vector<NamedSettings> all_settings(int bounces) {
   std::vector<NamedSettings> all;
   for (const std::string& name : strategy_names()) {
     const Strategy strategy = strategy_from_name(name);
-    const std::vector<int> candidates = strategy == Strategy::resampled ? std::vector{1, 2, 8} : std::vector{8};
-    for (const int n : candidates)
-      all.push_back({candidates.size() > 1 ? name + " of " + std::to_string(n) : name, {strategy, n, bounces}});
+    std::vector<CandidateCounts> candidates{8};
+    if (strategy == Strategy::resampled) candidates = {1, 2, 8, {2, 16}, {8, 0}};
+    for (const CandidateCounts& n : candidates)
+      all.push_back({candidates.size() > 1 ? name + " of " + candidates_text(n) : name, {strategy, n, bounces}});
   }
   return all;
 }

@@ -47,8 +47,10 @@ struct NamedSettings {
 std::vector<NamedSettings> all_settings(int bounces = 0);
 
 /// True where the strategy draws from the map: it finds lights of any size.
-inline bool knows_the_map(sateen::Strategy s) {
-  return s != sateen::Strategy::uniform && s != sateen::Strategy::talk && s != sateen::Strategy::table;
+inline bool knows_the_map(const sateen::LightSettings& light) {
+  using sateen::Strategy;
+  if (light.strategy == Strategy::resampled) return light.candidates.map > 0;
+  return light.strategy != Strategy::uniform && light.strategy != Strategy::talk && light.strategy != Strategy::table;
 }
 
 }  // namespace sateen_test

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/error.h"
+
 namespace sateen_test {
 namespace {
 
@@ -68,6 +70,15 @@ TEST(ThinOut, OfNothingIsNothing) {
   const size_t kept = thin_out(tiny, 3, 0.5);
   ASSERT_GE(kept, 2u);
   for (size_t i = 0; i < kept; ++i) EXPECT_TRUE(std::isfinite(tiny[i].light.x + tiny[i].light.z));
+}
+
+TEST(Candidates, AreReadAsTheyAreWritten) {
+  for (const CandidateCounts& counts : {CandidateCounts(8), CandidateCounts(4, 16), CandidateCounts(64, 0)})
+    EXPECT_EQ(candidates_from_text(candidates_text(counts)), counts);
+  EXPECT_EQ(candidates_text(8), "8");
+  EXPECT_EQ(candidates_text({4, 16}), "4+16");
+  for (const char* text : {"", "0", "65", "+", "8+", "+8", "8+65", "8+-1", "-8", "8 + 4", "8+4+2", "8.5", "many"})
+    EXPECT_THROW(candidates_from_text(text), InputError) << text;
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ int share_of_samples(const LightSettings& light, int samples) {
     case Strategy::environment:
       return 2 * samples;
     case Strategy::resampled:
-      return light.candidates > 2 ? samples / 2 : samples;
+      return light.candidates.table > 2 || light.candidates.map > 2 ? samples / 2 : samples;
     default:
       return samples;
   }
@@ -100,7 +100,7 @@ void expect_agreement(const std::vector<SceneRecipe>& recipes, int bounces, int 
     for (const NamedSettings& settings : all_settings(bounces)) {
       seed += 1000;
       const Scale finest =
-          knows_the_map(settings.light.strategy) ? finest_of_all : std::max(finest_of_all, recipe.blind);
+          knows_the_map(settings.light) ? finest_of_all : std::max(finest_of_all, recipe.blind);
       if (finest == Scale::nothing) continue;
       const double start = cpu_seconds();
       const PictureBatches picture =

@@ -62,7 +62,8 @@ struct Tally {
 };
 
 /// As the program renders it: with as many candidates as its pilot chooses.
-RenderSettings settings_for(const ErrorScene& scene, int candidates, std::uint32_t seed, bool adaptive) {
+RenderSettings settings_for(const ErrorScene& scene, const CandidateCounts& candidates, std::uint32_t seed,
+                            bool adaptive) {
   RenderSettings settings = samples(spp, seed);
   settings.light.bounces = scene.bounces;
   settings.light.candidates = candidates;
@@ -72,7 +73,7 @@ RenderSettings settings_for(const ErrorScene& scene, int candidates, std::uint32
 
 void judge(const ErrorScene& which, int width, int height, int seeds, Tally& tally) {
   const Scene scene = scene_of(which, width, height);
-  const int candidates = choose_candidates(scene, {}, 1, 0).candidates;
+  const CandidateCounts candidates = choose_candidates(scene, {}, 1, 0).candidates;
   RenderSettings settings = settings_for(which, candidates, 777, false);
   settings.stop.spp = spp * times;
   Film reference(width, height, false);
@@ -105,10 +106,10 @@ void judge(const ErrorScene& which, int width, int height, int seeds, Tally& tal
   tally.met += met, tally.met_of += seeds;
   ++tally.scenes, tally.covered += share >= 0.93 && share <= 0.97;
   if (std::getenv("SATEEN_TEST_NUMBERS"))
-    std::fprintf(stderr, "| %s | %d | %.3f | %.0f | %.2f | %d/%d | %d/%d | %.1f | %.1f | %d/%d |\n",
-                 name_of(which).c_str(), candidates, mean_error / seeds, samples_taken / seeds, worst, near,
-                 2 * seeds, in_interval, 2 * seeds, 100 * share, 100 * coverage.share_inside / coverage.share_all,
-                 met, seeds);
+    std::fprintf(stderr, "| %s | %s | %.3f | %.0f | %.2f | %d/%d | %d/%d | %.1f | %.1f | %d/%d |\n",
+                 name_of(which).c_str(), candidates_text(candidates).c_str(), mean_error / seeds,
+                 samples_taken / seeds, worst, near, 2 * seeds, in_interval, 2 * seeds, 100 * share,
+                 100 * coverage.share_inside / coverage.share_all, met, seeds);
 }
 
 void expect_bars(const Tally& t) {
@@ -148,7 +149,7 @@ struct CoarseTally {
 
 void judge_coarse(const ErrorScene& which, int width, int height, int seeds, CoarseTally& tally) {
   const Scene scene = scene_of(which, width, height);
-  const int candidates = choose_candidates(scene, {}, 1, 0).candidates;
+  const CandidateCounts candidates = choose_candidates(scene, {}, 1, 0).candidates;
   RenderSettings settings = settings_for(which, candidates, 777, false);
   settings.stop.spp = 1024;
   Film reference(width, height, false);
