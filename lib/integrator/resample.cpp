@@ -76,19 +76,19 @@ size_t thin_out(std::span<LightRay> rays, int most, double u) {
   const double enough = sum / most;
   double passed = u * enough;
   size_t kept = 0;
+  // Without a branch, for none would foresee who is kept.
   for (const LightRay& ray : rays) {
     const double worth = double(ray.worth * ray.odds);
-    if (!(worth > 0)) continue;
-    float stands_for = 1;
-    if (worth < enough) {
-      passed += worth;
-      if (passed < enough) continue;
-      passed -= enough;
-      stands_for = float(enough / worth);
-    }
-    rays[kept] = ray;
-    rays[kept].light *= stands_for;
-    rays[kept++].worth *= stands_for;
+    const bool surely = !(worth < enough);
+    passed += worth * !surely;
+    const bool next = passed >= enough;
+    passed -= enough * next;
+    const float stands_for[] = {1, float(enough / worth)};
+    LightRay& to = rays[kept];
+    to = ray;
+    to.light *= stands_for[next];
+    to.worth *= stands_for[next];
+    kept += (surely || next) && worth > 0;
   }
   return kept;
 }

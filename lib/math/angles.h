@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace sateen {
@@ -38,9 +39,11 @@ inline SineCosine fast_sincos_turns(double turns) {
                         t2 * ((0.00833332878245888032 + t * -0.000198392022122310998) + t2 * 2.71734568410899529e-6));
   const double c = (0.999999999952489417 + t * -0.499999996148576084) +
                    t2 * ((0.0416666166925328261 + t * -0.00138866179996470757) + t2 * 0.0000243798312511753657);
-  const int quadrant = int(static_cast<long long>(nearest) & 3);
-  const double sine = quadrant & 1 ? c : s, cosine = quadrant & 1 ? s : c;
-  return {quadrant & 2 ? -sine : sine, (quadrant + 1) & 2 ? -cosine : cosine};
+  // Looked up, since no branch foresees a quadrant.
+  constexpr double sign[] = {1, 1, -1, -1};
+  const double either[] = {s, c};
+  const auto quadrant = std::size_t(static_cast<long long>(nearest) & 3);
+  return {sign[quadrant] * either[quadrant & 1], sign[(quadrant + 1) & 3] * either[(quadrant + 1) & 1]};
 }
 
 }  // namespace sateen
