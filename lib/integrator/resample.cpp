@@ -6,6 +6,7 @@ namespace sateen {
 
 namespace {
 
+static_assert(most_candidates <= batch_size);  // that many numbers are drawn at once
 constexpr float least_open = 0.05f;  // what a direction that looks closed is worth: measured, 0.02 to 0.1 are alike
 constexpr size_t few = 8;            // candidates whose shadows are all traced
 

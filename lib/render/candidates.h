@@ -32,7 +32,7 @@ struct CandidateChoice {
 /// some thousand pixels spread over the picture, direct light alone, and takes the least error at equal time. Its
 /// noise is a tenth, and so little is what a wrong choice costs. Time is counted in rays and candidates at measured
 /// costs, never by a clock: the same scene gives the same choice on every machine and any number of threads, and
-/// whatever number of samples is asked for, so that ranges of one picture agree. Takes about a twentieth of a
+/// whatever number of samples is asked for, so that ranges of one picture agree. Takes less than a tenth of a
 /// CPU-second.
 CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, std::uint32_t seed, int threads);
 

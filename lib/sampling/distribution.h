@@ -71,7 +71,7 @@ template <class RowWeights>
 Distribution2D build_distribution(int width, int height, RowWeights&& row_weights);
 
 CellSample2D sample_cell(const Distribution2D& distribution, double u0, double u1);
-/// The same for many, the same bits: looked up side by side, a third of the time.
+/// The same for many, the same bits: looked up side by side, in half of the time.
 void sample_cells(const Distribution2D& distribution, std::span<const std::array<double, 2>> u, CellSample2D* out);
 double cell_probability(const Distribution2D& distribution, std::uint32_t x, std::uint32_t y);
 
