@@ -45,15 +45,14 @@ CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light
   // Nothing of a map without lights stands out: it proposes none.
   const bool has_lights = drawable(scene.environment.by_compensated);
   gains({usual.table, has_lights ? usual.map : 0});
-  if (trials[0].price() > 0) {
-    if (has_lights && !gains({usual.table, usual.map / 2})) gains({usual.table, 2 * usual.map});
-    if (gains({usual.table / 2, best().map})) gains({usual.table / 4, best().map});
-  }
-  choice.candidates = best();
   if (!(trials[0].price() > 0)) {
+    choice.candidates = best();
     choice.reason = "the pilot met no noise";
     return choice;
   }
+  if (has_lights && !gains({usual.table, usual.map / 2})) gains({usual.table, 2 * usual.map});
+  if (gains({usual.table / 2, best().map})) gains({usual.table / 4, best().map});
+  choice.candidates = best();
   for (const CandidateTrial& trial : trials)
     if (&trial != &trials[least])
       choice.reason += fmt::format("{}{} would have {:.2f}", choice.reason.empty() ? "" : ", ",

@@ -99,7 +99,7 @@ std::string study_page(const StudyResult& result, const std::filesystem::path& p
       "its error taken from the line between them in logarithms. Renders of all strategies alternate. CPU time is "
       "that "
       "of rendering: the direction table (about 0.3 s a look) and the ray tracer are built before, and the pilot "
-      "of auto, a twentieth of a CPU-second a picture of any size, is not counted either.",
+      "of auto, less than a tenth of a CPU-second a picture of any size, is not counted either.",
       fmt::format("{} scenes", result.scenes.size()), result.settings.scene.mesh, result.settings.scene.width,
       result.settings.scene.height, result.settings.seeds, "mis-compensated", result.settings.samples));
   page.paragraph(fmt::format(
