@@ -20,6 +20,8 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
   PictureJob job;
   job.scene = flags.scene;
   job.render = flags.render;
+  job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
+  job.render.error_floor = error_floor_at(job.exposure_ev);
   job.plan = make_plan(scene, report.look, flags.switches, flags.render.stop.error, flags.render.light,
                        flags.render.seed, flags.render.threads, pilots);
   if (flags.verify_plan && pilots)
@@ -29,7 +31,6 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
     job.candidates_reason = settle_candidates(scene, flags.switches.candidates, job.render.light, flags.render.seed,
                                               flags.render.threads);
   job.display = flags.display;
-  job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
   job.layers = flags.layer_list;
   job.references = flags.stage.references;
   job.effects = effects_text(scene, job.render.light);

@@ -49,8 +49,9 @@ int run_merge(const std::vector<std::string>& words) {
 
   RenderResult result;
   result.samples = sum.course.samples;
-  result.error = error_of(sum.film, sum.course.samples);
-  result.deviation = deviation_of_share(sum.film);
+  const std::vector<PixelError> errors = pixel_errors(sum.film, {job.render.error_floor, job.render.threads});
+  result.error = picture_error(sum.film, errors);
+  result.deviation = deviation_of_share(sum.film, errors);
   result.seconds = result.total_seconds = sum.course.seconds;
   result.cpu_seconds = result.total_cpu_seconds = sum.course.cpu_seconds;
   result.rays = sum.course.rays;

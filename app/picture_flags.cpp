@@ -88,7 +88,7 @@ void add_quality(Command& c, PictureFlags& f) {
   c.number("--error", "E", stop.error, 1e-6, 100,
            "relative error of the picture, such as 0.02; its upper bound counts");
   c.text("--quality", "NAME", f.quality,
-         "draft, preview or final: --error 0.1, 0.04 or 0.01, and the effects that such an error calls for; "
+         "draft, preview or final: --error 0.18, 0.075 or 0.018, and the effects that such an error calls for; "
          "sateen cost finds what suits your scene");
   c.custom(
       "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
@@ -192,10 +192,7 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int samples) 
   settle_quality(f.quality, f.render);
   const bool no_rule = stop.spp == 0 && stop.error == 0 && stop.seconds == 0;
   if (no_rule) stop.spp = samples;
-  // The error does not look at alpha, where alone a catcher's shadow is.
-  const bool shadow_in_alpha = f.stage.ground == "catcher" && f.scene.backdrop == Backdrop::none;
-  f.render.adaptive =
-      command.given("--adaptive") ? f.adaptive : !shadow_in_alpha && (no_rule || stop.error > 0 || stop.seconds > 0);
+  f.render.adaptive = command.given("--adaptive") ? f.adaptive : no_rule || stop.error > 0 || stop.seconds > 0;
   f.render.seed = std::uint32_t(f.seed);
   f.render.light.strategy = strategy_from_name(f.strategy);
   f.scene.threads = f.render.threads;

@@ -35,7 +35,8 @@ std::string seconds_text(double s) {
 }
 
 std::string error_text(const PictureError& e) {
-  return e.known ? fmt::format("error E {:.4f} (95 %: {:.4f} to {:.4f})", e.error, e.low, e.high)
+  return e.known ? fmt::format("error E {:.4g} (95 %: {:.4g} to {:.4g}){}", e.error, e.low, e.high,
+                               e.rests_on_rare_samples ? ", rests on rare samples" : "")
                  : std::string("error not known below 2 samples a pixel");
 }
 
@@ -215,6 +216,7 @@ void write_result(JsonWriter& w, const RenderResult& result, const std::vector<W
         .member("value", result.error.error)
         .member("low", result.error.low)
         .member("high", result.error.high)
+        .member("rests_on_rare_samples", result.error.rests_on_rare_samples)
         .close();
   else
     w.null();
@@ -258,7 +260,7 @@ void print_result_line(const PictureJob& job, const RenderResult& result) {
   print_note(fmt::format("{} in {}, {}; {}", samples_text(result.samples), seconds_text(result.seconds),
                          error_text(result.error), reason_text(job.render.stop, result)));
   if (result.error.known && result.error.error > 0)
-    print_note(fmt::format("95 % of pixels are within {} of their final value", percent_text(result.deviation)));
+    print_note(fmt::format("95 % of the cloth's pixels are within {} of their final value", percent_text(result.deviation)));
   if (const Promise& p = result.promise; p.made && result.reason != StopReason::interrupted)
     print_note(fmt::format("promised: {}, {:.1f} CPU-s; it took {}, {:.1f} CPU-s", forecast_text(p.seconds),
                            p.cpu_seconds.value, seconds_text(result.total_seconds), result.total_cpu_seconds));

@@ -38,7 +38,7 @@ Image develop_beauty(const Film& film) {
   for (size_t i = 0; i < film.pixels.size(); ++i) {
     const FilmPixel& pixel = film.pixels[i];
     put(pixel_mean(pixel), &image.pixels[i * 4]);
-    image.pixels[i * 4 + 3] = pixel.samples ? float(pixel.alpha / double(pixel.samples)) : 0;
+    image.pixels[i * 4 + 3] = pixel.samples == 0 ? 0 : film.opaque ? 1 : float(pixel_coverage(pixel));
   }
   return image;
 }
@@ -86,9 +86,9 @@ std::vector<ImageLayer> develop_layers(const Film& film) {
     }));
   }
   all.push_back(layer(film, "error", rgb, [](P, L, float*) {}));
-  const std::vector<Color> variances = pooled_variances(film);
+  const std::vector<Vec3d> variances = pooled_variances(film);
   for (size_t i = 0; i < variances.size(); ++i)
-    for (size_t c = 0; c < 3; ++c) all.back().image.pixels[3 * i + c] = std::sqrt(variances[i][int(c)]);
+    for (size_t c = 0; c < 3; ++c) all.back().image.pixels[3 * i + c] = float(std::sqrt(variances[i][int(c)]));
   all.push_back(layer(film, "samples", {"Y"}, [](P p, L, float* to) { to[0] = float(p.samples); }));
   return all;
 }

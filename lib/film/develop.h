@@ -10,9 +10,10 @@ namespace sateen {
 Image develop_beauty(const Film& film);
 
 /// The layers of an EXR: beauty (half), then as the film holds them (float) direct, indirect, indirect_1 to _3 by
-/// bounce and indirect_more, through_gaps, backdrop, surface, volume, warp_surface, warp_volume, weft_surface, weft_volume, albedo, N, P, uv, warp, error (per channel, standard error
-/// from the pixel and its neighbours; 2.2 of it to either side are 95 %), samples. Geometric layers are means over
-/// the samples that met cloth, 0 where none did.
+/// bounce and indirect_more, through_gaps, backdrop, surface, volume, warp_surface, warp_volume, weft_surface,
+/// weft_volume, albedo, N, P, uv, warp, error (per channel, standard error from the pixel and its neighbours; 2.2 of
+/// it to either side are 95 %), samples. Geometric layers are means over the samples that met cloth, 0 where none
+/// did.
 std::vector<ImageLayer> develop_layers(const Film& film);
 
 /// Beauty over a backdrop of one colour: what a display picture shows. `ground` in the working space.

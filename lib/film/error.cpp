@@ -7,6 +7,10 @@ namespace sateen {
 
 namespace {
 
+constexpr double unsure_factor = 1.5;
+// Share of the covered cells that E comes from where it rests on rare samples.
+constexpr double few_cells = 0.01;
+
 // Student's t that 2.5 % lie above (Cornish and Fisher's expansion; 1 % off at 3 degrees of freedom).
 double student_95(double freedom) {
   constexpr double z = 1.96, z3 = z * z * z, z5 = z3 * z * z;
@@ -14,94 +18,118 @@ double student_95(double freedom) {
   return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f);
 }
 
-// What a pixel adds to E squared, mean over channels; below 0 where it does not count.
-double relative_variance(const FilmPixel& pixel) {
-  if (pixel.samples < 2) return -1;
-  const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (double(mean[c]) * double(mean[c]) + 0.01);
-  return sum / 3;
+/// Mean over the up to eight neighbours that are known of what `value` makes of them; false where there are none.
+template <class T, class Value>
+bool neighbours_mean(const Film& film, int x, int y, const Value& value, T& mean) {
+  T sum(0);
+  double count = 0;
+  for (int py = std::max(y - 1, 0); py <= std::min(y + 1, film.height - 1); ++py)
+    for (int px = std::max(x - 1, 0); px <= std::min(x + 1, film.width - 1); ++px) {
+      const size_t i = size_t(py) * size_t(film.width) + size_t(px);
+      if ((px == x && py == y) || film.pixels[i].samples < 2) continue;
+      sum += value(i);
+      ++count;
+    }
+  if (count > 0) mean = sum / count;
+  return count > 0;
+}
+
+/// `own` of every pixel, half of it replaced by its neighbours'. Of the same samples: where a neighbour has more, its
+/// variance is smaller for no reason of this pixel.
+template <class T>
+std::vector<T> half_from_neighbours(const Film& film, const std::vector<T>& own) {
+  std::vector<T> out(own.size(), T(0));
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x) {
+      const size_t here = size_t(y) * size_t(film.width) + size_t(x);
+      if (film.pixels[here].samples < 2) continue;
+      const double samples = std::max(double(film.pixels[here].samples), 1.0);
+      T mean(0);
+      const auto scaled = [&](size_t i) { return own[i] * (double(film.pixels[i].samples) / samples); };
+      out[here] = neighbours_mean(film, x, y, scaled, mean) ? (own[here] + mean) * 0.5 : own[here];
+    }
+  return out;
 }
 
 }  // namespace
 
-PictureError picture_error(const Film& film) {
-  double total = 0, pixels = 0, spread = 0, spread_squares = 0;
+PictureError picture_error(const Film& film, const std::vector<PixelError>& errors) {
+  double total = 0, at_most = 0, weight = 0, spread = 0, spread_squares = 0, covered_cells = 0;
+  bool known = false;
   // How uncertain the sum is shows in the scatter within cells of 2 x 2 pixels: they are independent and see about
   // the same. What they differ by in truth makes the interval wider, never narrower.
   for (int y = 0; y < film.height; y += 2)
     for (int x = 0; x < film.width; x += 2) {
-      double sum = 0, squares = 0, count = 0;
+      double sum = 0, squares = 0, count = 0, covered = 0;
       for (int k = 0; k < 4; ++k) {
         const int px = x + k % 2, py = y + k / 2;
         if (px >= film.width || py >= film.height) continue;
-        const double v = relative_variance(film.pixels[size_t(py) * size_t(film.width) + size_t(px)]);
+        const PixelError& e = errors[size_t(py) * size_t(film.width) + size_t(px)];
         // Outside a crop, or after an interrupted first pass, there is nothing to be wrong.
-        if (v < 0) continue;
-        sum += v;
-        squares += v * v;
+        if (!e.known) continue;
+        sum += e.weighted;
+        squares += e.weighted * e.weighted;
+        at_most += e.at_most;
+        covered += e.coverage;
         ++count;
       }
       const double scatter = count > 1 ? std::max(squares - sum * sum / count, 0.0) * count / (count - 1) : squares;
       total += sum;
-      pixels += count;
+      weight += covered;
+      covered_cells += covered > 0;
+      known = known || count > 0;
       spread += scatter;
       spread_squares += scatter * scatter;
     }
   PictureError result;
-  if (pixels == 0) return result;
-  result.known = true;
-  result.error = result.low = result.high = std::sqrt(total / pixels);
-  if (total == 0) return result;
+  result.known = known;
+  if (!(weight > 0)) return result;
+  result.error = result.low = result.high = std::sqrt(total / weight);
+  if (!(total > 0)) return result;
   // The estimate scatters by `spread`; what the picture really is off by scatters by up to three times that (of a
   // normal deviate's square the variance is 2, of the mean of three 2/3). Logarithms: sums of squares are skew.
-  const double freedom = spread_squares > 0 ? 3 * spread * spread / spread_squares : 1e9;
-  const double half = student_95(freedom) * std::sqrt(4 * spread) / total / 2;
+  const double cells = spread_squares > 0 ? spread * spread / spread_squares : 1e9;
+  const double chance = student_95(3 * cells) * std::sqrt(4 * spread) / total / 2;
+  // Few samples are not sure of what the variances are divided by: E scatters from scene to scene about as far as
+  // that would move it.
+  const double unsure = unsure_factor * std::log(std::max(at_most / total, 1.0)) / 2;
+  const double half = std::hypot(chance, unsure);
   result.low = result.error * std::exp(-half);
   result.high = result.error * std::exp(half);
+  result.rests_on_rare_samples = cells < few_cells * std::min(covered_cells, 10000.0) && half > 0.1;
   return result;
 }
 
-std::vector<Color> pooled_variances(const Film& film) {
-  std::vector<Color> own(film.pixels.size()), pooled(film.pixels.size());
-  for (size_t i = 0; i < own.size(); ++i) own[i] = pixel_variance(film.pixels[i]);
-  for (int y = 0; y < film.height; ++y)
-    for (int x = 0; x < film.width; ++x) {
-      const size_t here = size_t(y) * size_t(film.width) + size_t(x);
-      Color sum(0);
-      float count = 0;
-      for (int py = std::max(y - 1, 0); py <= std::min(y + 1, film.height - 1); ++py)
-        for (int px = std::max(x - 1, 0); px <= std::min(x + 1, film.width - 1); ++px) {
-          const size_t i = size_t(py) * size_t(film.width) + size_t(px);
-          if (i == here || film.pixels[i].samples < 2) continue;
-          // Of the same samples: where a neighbour has more, its variance is smaller for no reason of this pixel.
-          sum += own[i] * (float(film.pixels[i].samples) / std::max(float(film.pixels[here].samples), 1.0f));
-          ++count;
-        }
-      pooled[here] = film.pixels[here].samples < 2 ? Color(0)
-                     : count > 0                   ? (own[here] + sum / count) * 0.5f
-                                                   : own[here];
-    }
-  return pooled;
+PictureError picture_error(const Film& film, const ErrorScale& scale) {
+  return picture_error(film, pixel_errors(film, scale));
 }
 
-double deviation_of_share(const Film& film, double share) {
-  const std::vector<Color> pooled = pooled_variances(film);
-  std::vector<double> deviations;
-  for (size_t i = 0; i < pooled.size(); ++i) {
-    if (film.pixels[i].samples < 2) continue;
-    const Color mean = pixel_mean(film.pixels[i]);
-    double sum = 0;
-    for (int c = 0; c < 3; ++c) sum += double(pooled[i][c]) / (double(mean[c]) * double(mean[c]) + 0.01);
-    deviations.push_back(std::sqrt(sum / 3));
+std::vector<Vec3d> pooled_variances(const Film& film) {
+  std::vector<Vec3d> own(film.pixels.size());
+  for (size_t i = 0; i < own.size(); ++i) own[i] = pixel_variance(film.pixels[i]);
+  return half_from_neighbours(film, own);
+}
+
+double deviation_of_share(const Film& film, const std::vector<PixelError>& errors, double share) {
+  std::vector<double> own(errors.size());
+  for (size_t i = 0; i < own.size(); ++i) own[i] = errors[i].relative;
+  std::vector<double> deviations = half_from_neighbours(film, own);
+  double all = 0, largest = 0;
+  for (size_t i = 0; i < errors.size(); ++i) {
+    deviations[i] = std::sqrt(deviations[i]);
+    if (!errors[i].known) continue;
+    all += errors[i].coverage;
+    largest = std::max(largest, deviations[i]);
   }
-  if (deviations.empty()) return 0;
-  double low = 0, high = 10 * *std::max_element(deviations.begin(), deviations.end());
+  if (!(all > 0)) return 0;
+  double low = 0, high = 10 * largest;
   for (int k = 0; k < 40; ++k) {
     const double x = (low + high) / 2;
     double inside = 0;
-    for (const double d : deviations) inside += d > 0 ? std::erf(x / d / std::sqrt(2.0)) : 1;
-    (inside < share * double(deviations.size()) ? low : high) = x;
+    for (size_t i = 0; i < errors.size(); ++i)
+      if (errors[i].known)
+        inside += errors[i].coverage * (deviations[i] > 0 ? std::erf(x / deviations[i] / std::sqrt(2.0)) : 1);
+    (inside < share * all ? low : high) = x;
   }
   return high;
 }

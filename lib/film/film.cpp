@@ -5,17 +5,14 @@
 
 namespace sateen {
 
-namespace {
-// Samples of replicate r among the first n of a pixel.
 std::uint64_t replicate_count(std::uint64_t n, int r) {
   return (n + replicates - 1 - std::uint64_t(r)) / replicates;
 }
-}  // namespace
 
-void add_sample(FilmPixel& pixel, const Color& value, float alpha, double grain) {
-  Vec3d& sum = pixel.beauty[pixel.samples % replicates];
-  for (int c = 0; c < 3; ++c) sum[c] += std::nearbyint(double(value[c]) / grain) * grain;
-  pixel.alpha += std::nearbyint(double(alpha) * 0x1p33) * 0x1p-33;
+void add_sample(FilmPixel& pixel, const Color& value, float coverage, double grain) {
+  const size_t r = pixel.samples % replicates;
+  for (int c = 0; c < 3; ++c) pixel.beauty[r][c] += std::nearbyint(double(value[c]) / grain) * grain;
+  pixel.coverage[r] += std::nearbyint(double(coverage) * 0x1p33) * 0x1p-33;
   ++pixel.samples;
 }
 
@@ -27,9 +24,16 @@ Color pixel_mean(const FilmPixel& pixel) {
   return {float(sum.x), float(sum.y), float(sum.z)};
 }
 
-Color pixel_variance(const FilmPixel& pixel) {
+double pixel_coverage(const FilmPixel& pixel) {
+  if (pixel.samples == 0) return 0;
+  double sum = 0;
+  for (const double c : pixel.coverage) sum += c;
+  return sum / double(pixel.samples);
+}
+
+Vec3d pixel_variance(const FilmPixel& pixel) {
   const int used = int(std::min<std::uint64_t>(pixel.samples, replicates));
-  if (used < 2) return Color(0);
+  if (used < 2) return Vec3d(0);
   // Replicate r weighs n_r / n and its mean varies as 1 / n_r: then the weighted scatter has the expectation
   // (replicates - 1) times the variance of the mean of all, also where the last round is not whole.
   Vec3d mean(0), scatter(0);
@@ -40,8 +44,7 @@ Color pixel_variance(const FilmPixel& pixel) {
     const Vec3d off = pixel.beauty[size_t(r)] / count - mean;
     scatter += off * off * (count / double(pixel.samples));
   }
-  scatter /= double(used - 1);
-  return {float(scatter.x), float(scatter.y), float(scatter.z)};
+  return scatter / double(used - 1);
 }
 
 void add_film(Film& film, const Film& other) {
@@ -49,7 +52,7 @@ void add_film(Film& film, const Film& other) {
     FilmPixel& to = film.pixels[i];
     const FilmPixel& from = other.pixels[i];
     for (size_t r = 0; r < replicates; ++r) to.beauty[r] += from.beauty[r];
-    to.alpha += from.alpha;
+    for (size_t r = 0; r < replicates; ++r) to.coverage[r] += from.coverage[r];
     to.samples += from.samples;
   }
   for (size_t i = 0; i < film.layers.size() && i < other.layers.size(); ++i) {
@@ -69,6 +72,7 @@ void add_film(Film& film, const Film& other) {
     to.uv += from.uv;
     to.hits += from.hits;
   }
+  film.opaque = film.opaque || other.opaque;
   film.first_sample = std::min(film.first_sample, other.first_sample);
 }
 

@@ -17,7 +17,8 @@ inline constexpr int replicates = 4;
 /// Sums of one pixel. A pixel owns its sums and its sample sequence, so bits do not depend on who computes.
 struct FilmPixel {
   std::array<Vec3d, replicates> beauty{Vec3d(0), Vec3d(0), Vec3d(0), Vec3d(0)};
-  double alpha = 0;
+  /// What cloth, ground and caught shadow cover, whatever is seen behind them.
+  std::array<double, replicates> coverage{};
   std::uint64_t samples = 0;
 };
 
@@ -48,6 +49,7 @@ struct Film {
   /// Samples enter the sums as multiples of this power of two, so that sums are exact, in any order, while they stay
   /// below 2^53 of it: 2^20 samples at the map's mean light a replicate. What is beyond is rounded as double is.
   double grain = 0x1p-33;
+  bool opaque = false;  ///< a backdrop is seen: alpha is 1 everywhere
   std::vector<FilmPixel> pixels;
   std::vector<LayerPixel> layers;  ///< empty, or one a pixel
 
@@ -56,17 +58,24 @@ struct Film {
       : width(w), height(h), pixels(size_t(w) * size_t(h)), layers(with_layers ? pixels.size() : 0) {}
 };
 
-/// Adds one sample to a pixel's beauty and alpha.
-void add_sample(FilmPixel& pixel, const Color& value, float alpha, double grain);
+/// Adds one sample to a pixel's beauty and coverage.
+void add_sample(FilmPixel& pixel, const Color& value, float coverage, double grain);
+
+/// Samples of replicate r among the first n of a pixel.
+std::uint64_t replicate_count(std::uint64_t n, int r);
 
 /// Mean of all samples of a pixel; black where it has none.
 Color pixel_mean(const FilmPixel& pixel);
 
-/// Variance of that mean in every channel, from the scatter of the replicates; 0 while fewer than two have samples.
-Color pixel_variance(const FilmPixel& pixel);
+/// Mean coverage of all samples of a pixel; 0 where it has none.
+double pixel_coverage(const FilmPixel& pixel);
 
-/// Adds the samples of `other` to `film`. Beauty, alpha, samples and so the error become what one render of all would
-/// have, bit for bit; the layers beside them to float's roundings. Films of one size, with layers or without.
+/// Variance of the mean in every channel, from the scatter of the replicates; 0 while fewer than two have samples.
+/// In double: the square of a sun's light is beyond float.
+Vec3d pixel_variance(const FilmPixel& pixel);
+
+/// Adds the samples of `other` to `film`. Beauty, coverage, samples and so the error become what one render of all
+/// would have, bit for bit; the layers beside them to float's roundings. Films of one size, with layers or without.
 void add_film(Film& film, const Film& other);
 
 }  // namespace sateen

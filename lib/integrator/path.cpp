@@ -95,7 +95,8 @@ void see_backdrop(const Scene& scene, const Vec3& direction, float passed, Camer
     out.backdrop = scene.backdrop_color * passed;
   else if (scene.backdrop == Backdrop::blurred && scene.blurred)
     out.backdrop = blurred_radiance(*scene.blurred, scene.environment, direction) * passed;
-  out.alpha = scene.backdrop == Backdrop::none ? 1 - passed : 1;
+  out.coverage = 1 - passed;
+  out.alpha = scene.backdrop == Backdrop::none ? out.coverage : 1;
 }
 
 /// Ground that the eye sees along `direction`, `passed` of it, with the light that it got.
@@ -159,7 +160,7 @@ void see_first(const Scene& scene, const ClothPoint& point, CameraSample& sample
   sample.fabric = point.fabric;
   sample.A = point.mapped ? point.values.A : point.fabric->A;
   sample.presence = presence_of(point);
-  sample.alpha = 1;
+  sample.coverage = sample.alpha = 1;
 }
 
 void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_t seed, const Seen<ClothPoint>& seen,

@@ -10,7 +10,8 @@ struct CameraSample {
   BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth or ground
   Color through_gaps{0, 0, 0};  ///< light of the layers behind the first, seen through its gaps
   Color backdrop{0, 0, 0};      ///< and the direct light of the ground
-  float alpha = 0;              ///< 1 where the backdrop is seen, else the cloth's opacity
+  float coverage = 0;           ///< by cloth, ground and caught shadow
+  float alpha = 0;              ///< 1 where a backdrop is seen, else the coverage
   bool hit = false;             ///< the values below are those of the first surface met
   Vec3 position{0, 0, 0}, normal{0, 0, 0}, warp{0, 0, 0};
   Vec2 uv{0, 0};

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "film/neighbours.h"
+
 namespace sateen {
 
 namespace {
@@ -16,40 +18,35 @@ double squared(double x) {
   return x * x;
 }
 
-// Relative variance of one sample, as E weighs it.
-double sample_variance(const FilmPixel& pixel) {
-  if (pixel.samples < 2) return 0;
-  const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (squared(double(mean[c])) + 0.01);
-  return sum * double(pixel.samples) / 3;
-}
-
-// Mean over the neighbourhood without its middle. Sums run along rows, then down columns, always in this order.
-std::vector<double> pooled_without_own(const std::vector<double>& values, int width, int height) {
-  std::vector<double> rows(values.size()), out(values.size());
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      double sum = 0;
-      for (int k = std::max(x - radius, 0); k <= std::min(x + radius, width - 1); ++k)
-        sum += values[size_t(y) * size_t(width) + size_t(k)];
-      rows[size_t(y) * size_t(width) + size_t(x)] = sum;
+/// For every pixel what the pixels around it say of E squared that one sample there is worth: mean variance of a
+/// sample over mean value squared, times mean coverage, over the backing that shows more of it.
+std::vector<double> noise_around(const Film& film, const ErrorScale& scale) {
+  const size_t size = film.pixels.size();
+  std::vector<double> present(size), coverage(size), noise(size);
+  for (size_t i = 0; i < size; ++i) {
+    present[i] = film.pixels[i].samples >= 2;
+    coverage[i] = pixel_coverage(film.pixels[i]);
+  }
+  const auto around = [&](const auto& values) {
+    return mean_of_neighbours(values, present, film.width, film.height, radius, scale.threads);
+  };
+  coverage = around(coverage);
+  for (const double backing : backings(film, scale)) {
+    std::vector<Vec3d> variance(size), value(size);
+    for (size_t i = 0; i < size; ++i) {
+      const FilmPixel over = laid_over(film.pixels[i], backing);
+      variance[i] = pixel_variance(over) * double(over.samples);
+      value[i] = Vec3d(pixel_mean(over));
     }
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int y0 = std::max(y - radius, 0), y1 = std::min(y + radius, height - 1);
-      const int across = std::min(x + radius, width - 1) - std::max(x - radius, 0) + 1;
-      const size_t here = size_t(y) * size_t(width) + size_t(x);
+    variance = around(variance);
+    value = around(value);
+    for (size_t i = 0; i < size; ++i) {
       double sum = 0;
-      for (int k = y0; k <= y1; ++k)
-        // Left out, not taken off again: a difference would keep a rounding of the pixel's own value.
-        if (k != y) sum += rows[size_t(k) * size_t(width) + size_t(x)];
-      for (int k = std::max(x - radius, 0); k <= std::min(x + radius, width - 1); ++k)
-        if (k != x) sum += values[size_t(y) * size_t(width) + size_t(k)];
-      const int count = across * (y1 - y0 + 1) - 1;
-      out[here] = count > 0 ? sum / count : values[here];
+      for (int c = 0; c < 3; ++c) sum += variance[i][c] / (squared(value[i][c]) + squared(scale.floor));
+      noise[i] = std::max(noise[i], sum / 3 * coverage[i]);
     }
-  return out;
+  }
+  return noise;
 }
 
 // The number next to it, by ratio, that is a power of two or one and a half times one: there sequences are even, in
@@ -83,7 +80,8 @@ int next_barrier(int samples) {
   return samples / first_barrier * first_barrier + first_barrier * std::max(samples / 32 / first_barrier, 1);
 }
 
-std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barrier, bool adaptive) {
+std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barrier, bool adaptive,
+                                    const ErrorScale& scale) {
   const Crop w = clipped(crop, film.width, film.height);
   std::vector<std::uint32_t> targets(film.pixels.size(), 0);
   const int width = w.x1 - w.x0, height = w.y1 - w.y0;
@@ -98,9 +96,8 @@ std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barr
   }
 
   std::vector<double> weights(count);
-  for (size_t i = 0; i < count; ++i) weights[i] = sample_variance(film.pixels[pixel_at(i)]);
-  weights = pooled_without_own(weights, width, height);
-  for (double& weight : weights) weight = std::sqrt(weight);
+  const std::vector<double> noise = noise_around(film, scale);
+  for (size_t i = 0; i < count; ++i) weights[i] = std::sqrt(noise[pixel_at(i)]);
   // No noise anywhere: all the same.
   if (*std::max_element(weights.begin(), weights.end()) == 0) std::fill(weights.begin(), weights.end(), 1.0);
   for (size_t i = 0; i < count; ++i) weights[i] = dithered(weights[i], i, width);
@@ -111,11 +108,11 @@ std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barr
   // The scale at which the shares add up to what is wanted lies between these two.
   double low = 0, high = 2 * wanted / smallest;
   for (int step = 0; step < 60; ++step) {
-    const double scale = (low + high) / 2;
+    const double factor = (low + high) / 2;
     double sum = 0;
     for (size_t i = 0; i < count; ++i)
-      sum += share(weights[i], scale, double(film.pixels[pixel_at(i)].samples), least);
-    (sum < wanted ? low : high) = scale;
+      sum += share(weights[i], factor, double(film.pixels[pixel_at(i)].samples), least);
+    (sum < wanted ? low : high) = factor;
   }
   for (size_t i = 0; i < count; ++i) {
     targets[pixel_at(i)] = std::uint32_t(share(weights[i], low, double(film.pixels[pixel_at(i)].samples), least));
@@ -123,19 +120,14 @@ std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barr
   return targets;
 }
 
-double useful_samples(const Film& film) {
+double useful_samples(const Film& film, const std::vector<PixelError>& errors) {
   constexpr double noisy = 1e-3;
-  std::vector<double> variances(film.pixels.size());
   double total = 0, pixels = 0, useful = 0;
-  for (size_t i = 0; i < variances.size(); ++i) {
-    if (film.pixels[i].samples < 2) continue;
-    variances[i] = sample_variance(film.pixels[i]);
-    total += variances[i];
-    ++pixels;
-  }
-  for (size_t i = 0; i < variances.size(); ++i)
-    if (film.pixels[i].samples >= 2 && variances[i] * pixels > noisy * total)
-      useful += double(film.pixels[i].samples);
+  const auto of_sample = [&](size_t i) { return errors[i].weighted * double(film.pixels[i].samples); };
+  for (size_t i = 0; i < errors.size(); ++i)
+    if (errors[i].known) total += of_sample(i), ++pixels;
+  for (size_t i = 0; i < errors.size(); ++i)
+    if (errors[i].known && of_sample(i) * pixels > noisy * total) useful += double(film.pixels[i].samples);
   return pixels > 0 ? useful / pixels : 0;
 }
 

@@ -24,7 +24,7 @@ class Biller {
     trace_grid(scene, light, seed, grid_, threads, [&](int i, std::span<const CameraSample> samples) {
       for (const auto& [effect, part] : parts_)
         for (const CameraSample& s : samples)
-          add_sample(less_.at(effect).pixels[size_t(i)], s.total() - part(s.direct), s.alpha, 0x1p-33);
+          add_sample(less_.at(effect).pixels[size_t(i)], s.total() - part(s.direct), s.coverage, 0x1p-33);
     });
     whole_ = trace_picture(scene, light, seed, grid_, threads);
     noise_ = relative_variance(whole_);

@@ -16,7 +16,7 @@ namespace sateen {
 namespace {
 
 // The number counts up with every change of what follows.
-constexpr char magic[16] = "sateen render 2";
+constexpr char magic[16] = "sateen render 3";
 constexpr std::uint64_t largest_file = std::uint64_t(1) << 36;
 
 /// Values to bytes and back, in one order for both, so that writing and reading cannot differ.
@@ -99,6 +99,7 @@ void exchange(Stream& s, C& c) {
   s.value(c.film.height);
   s.value(c.film.first_sample);
   s.value(c.film.grain);
+  s.value(c.film.opaque);
   s.array(c.film.pixels);
   s.array(c.film.layers);
   s.value(c.course.samples);

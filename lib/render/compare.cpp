@@ -19,7 +19,7 @@ void trace_more(GridPicture& picture, const Scene& scene, const LightSettings& l
   more.samples = samples - picture.grid.samples;
   const GridWork work = trace_grid(scene, light, seed, more, threads, [&](int i, std::span<const CameraSample> all) {
     FilmPixel& pixel = picture.pixels[size_t(i)];
-    for (const CameraSample& s : all) add_sample(pixel, s.total(), s.alpha, 0x1p-33);
+    for (const CameraSample& s : all) add_sample(pixel, s.total(), s.coverage, 0x1p-33);
   });
   picture.grid.samples = samples;
   picture.work.rays.add(work.rays);
@@ -41,7 +41,8 @@ std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& w
 double relative_variance(const GridPicture& picture) {
   double sum = 0;
   for (const FilmPixel& pixel : picture.pixels) {
-    const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
+    const Color mean = pixel_mean(pixel);
+    const Vec3d variance = pixel_variance(pixel);
     for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (3 * (double(mean[c]) * double(mean[c]) + 0.01));
   }
   return sum / double(picture.pixels.size());
@@ -52,7 +53,7 @@ Image grid_image(const GridPicture& picture) {
   for (size_t i = 0; i < picture.pixels.size(); ++i) {
     const Color mean = pixel_mean(picture.pixels[i]);
     for (int c = 0; c < 3; ++c) image.pixels[4 * i + size_t(c)] = mean[c];
-    image.pixels[4 * i + 3] = float(picture.pixels[i].alpha / double(picture.pixels[i].samples));
+    image.pixels[4 * i + 3] = float(pixel_coverage(picture.pixels[i]));
   }
   return image;
 }

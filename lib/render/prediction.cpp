@@ -17,18 +17,14 @@ constexpr double point_deviation = 0.03;
 constexpr double cost_deviation = 0.07;
 constexpr double two_sided_90 = 1.645;
 
-/// Seconds for one more mean sample.
+/// Seconds for one more mean sample, where it goes next.
 struct Cost {
   double seconds = 0, cpu_seconds = 0;
 };
 
-// From the later half of what was rendered: the first goes to other pixels when samples are dealt out by error.
 Cost cost_of(const std::vector<ErrorPoint>& points) {
-  const ErrorPoint& last = points.back();
-  ErrorPoint from;
-  for (const ErrorPoint& p : points)
-    if (p.samples <= last.samples / 2) from = p;
-  const double more = last.samples - from.samples;
+  const ErrorPoint &last = points.back(), from = later_half_of(points);
+  const double more = (last.work - from.work) / last.next_work;
   return {(last.seconds - from.seconds) / more, (last.cpu_seconds - from.cpu_seconds) / more};
 }
 
@@ -45,6 +41,7 @@ Promise times_for(const std::vector<ErrorPoint>& points, const Forecast& samples
   promise.made = true;
   promise.made_at_seconds = last.seconds;
   promise.samples = samples;
+  promise.work = last.work + (samples.value - last.samples) * last.next_work;
   promise.seconds = forecast(last.seconds, cost.seconds);
   promise.cpu_seconds = forecast(last.cpu_seconds, cost.cpu_seconds);
   return promise;
@@ -66,6 +63,13 @@ double barrier_for(double first, double samples) {
 }
 
 }  // namespace
+
+ErrorPoint later_half_of(const std::vector<ErrorPoint>& points) {
+  ErrorPoint from;
+  for (const ErrorPoint& p : points)
+    if (p.samples <= points.back().samples / 2) from = p;
+  return from;
+}
 
 ErrorSlope fit_slope(const std::vector<ErrorPoint>& points) {
   double count = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

@@ -5,11 +5,13 @@ namespace sateen {
 
 /// What a running render knows of itself at a barrier.
 struct ErrorPoint {
-  double samples = 0;  ///< mean a pixel
-  double useful = 0;   ///< of these, the mean that went to pixels with noise: E follows it, empty pixels stop early
-  double error = 0;    ///< E
-  double high = 0;     ///< upper end of its interval
-  double seconds = 0;  ///< wall clock so far
+  double samples = 0;    ///< mean a pixel
+  double useful = 0;     ///< of these, the mean that went to pixels with noise: E follows it, empty pixels stop early
+  double work = 0;       ///< of all samples so far; 1: of one that meets cloth, mean over the picture's pixels
+  double next_work = 0;  ///< of one more mean sample as samples are dealt out from here on
+  double error = 0;      ///< E
+  double high = 0;       ///< upper end of its interval
+  double seconds = 0;    ///< wall clock so far
   double cpu_seconds = 0;  ///< so far, all threads
 };
 
@@ -24,9 +26,13 @@ struct Promise {
   double made_at_seconds = 0;
   Forecast error;        ///< E when the render stops
   Forecast samples;      ///< mean a pixel
+  double work = 0;       ///< of all samples (ErrorPoint)
   Forecast seconds;      ///< wall clock of the whole render
   Forecast cpu_seconds;  ///< of the whole render, all threads
 };
+
+/// Where the later half of what was rendered began: by that the cost of what comes is told.
+ErrorPoint later_half_of(const std::vector<ErrorPoint>& points);
 
 /// How log E falls with log useful samples on this very run: least squares over the points so far, pulled to what
 /// other scenes showed while they are few. `deviation`: standard deviation of the slope.

@@ -8,7 +8,8 @@ struct NamedQuality {
   double error;
 };
 
-/// By eye on the shipped looks: noise stands out above 10 %, can be worked with at 4 %, and is gone at 1 %.
-inline constexpr NamedQuality named_qualities[] = {{"draft", 0.10}, {"preview", 0.04}, {"final", 0.01}};
+/// By eye on the shipped looks: noise stands out above 18 %, can be worked with at 7.5 %, and is gone at
+/// 1.8 %.
+inline constexpr NamedQuality named_qualities[] = {{"draft", 0.18}, {"preview", 0.075}, {"final", 0.018}};
 
 }  // namespace sateen

@@ -25,9 +25,10 @@ struct RenderSettings {
   LightSettings light;
   StopRules stop;
   std::uint32_t seed = 1;
-  int threads = 0;           ///< 0: all that this process may use
-  Crop crop;                 ///< all zero: the whole picture
-  bool adaptive = false;     ///< samples go where the error is
+  int threads = 0;                           ///< 0: all that this process may use
+  Crop crop;                                 ///< all zero: the whole picture
+  bool adaptive = false;                     ///< samples go where the error is
+  double error_floor = default_error_floor;  ///< of E: ErrorScale
   bool albedo_layer = true;  ///< false: the layer `albedo` stays black and its table, half a second, is not made
 };
 
@@ -76,10 +77,6 @@ struct RenderHooks {
   double snapshot_every = 0;  ///< seconds between calls of `snapshot` that nobody asked for; 0: none
   std::function<void(const RenderResult&, bool asked)> snapshot;
 };
-
-/// E of a picture with so many mean samples (film/error.h), made larger before the first barrier: a ratio of two
-/// noisy numbers is off by about one part in their count, and of few samples E comes out too small.
-PictureError error_of(const Film& film, int samples);
 
 /// Renders into `film` pass by pass, on from where `course` is. Same scene, settings and film give the same bits on
 /// any number of threads and however often the render was stopped and gone on with, to whatever error, time or

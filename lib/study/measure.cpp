@@ -20,7 +20,8 @@ Reference make_reference(const Film& film, int samples) {
   Reference reference;
   reference.samples = samples;
   for (const FilmPixel& pixel : film.pixels) {
-    const Color mean = pixel_mean(pixel), variance = pixel_variance(pixel);
+    const Color mean = pixel_mean(pixel);
+    const Vec3d variance = pixel_variance(pixel);
     reference.values.push_back(mean);
     for (int c = 0; c < 3; ++c) {
       reference.own.absolute += double(variance[c]);

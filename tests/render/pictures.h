@@ -44,7 +44,7 @@ inline sateen::RenderSettings samples(int spp, std::uint32_t seed = 1) {
 
 /// Every bit of a film: neither struct has padding.
 inline std::string film_hash(const sateen::Film& film) {
-  static_assert(sizeof(sateen::FilmPixel) == (3 * sateen::replicates + 2) * 8);
+  static_assert(sizeof(sateen::FilmPixel) == (4 * sateen::replicates + 1) * 8);
   static_assert(sizeof(sateen::LayerPixel) == (30 + 3 + 9 + 2 + 1) * 4);
   return sateen::Hash()
       .add_bytes(film.pixels.data(), film.pixels.size() * sizeof(sateen::FilmPixel))

@@ -19,7 +19,7 @@ std::vector<ErrorPoint> made_run(double slope, int until, std::mt19937& random) 
   std::vector<ErrorPoint> points;
   for (int n = 16; n <= until; n = next_barrier(n)) {
     const double error = 0.8 * std::pow(n, slope) * std::exp(noise(random));
-    points.push_back({double(n), double(n), error, error * 1.02, 0.3 + 0.01 * n, 0.5 + 0.02 * n});
+    points.push_back({double(n), double(n), double(n), 1, error, error * 1.02, 0.3 + 0.01 * n, 0.5 + 0.02 * n});
   }
   return points;
 }

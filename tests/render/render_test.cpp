@@ -133,7 +133,7 @@ TEST(Replicates, ShowTheVarianceThatSeedsHave) {
       double seen = 0, said = 0;
       for (size_t i = 0; i < films[0].pixels.size(); ++i) {
         const Color off = pixel_mean(films[0].pixels[i]) - pixel_mean(films[1].pixels[i]);
-        const Color variance = pixel_variance(films[0].pixels[i]) + pixel_variance(films[1].pixels[i]);
+        const Vec3d variance = pixel_variance(films[0].pixels[i]) + pixel_variance(films[1].pixels[i]);
         for (int c = 0; c < 3; ++c) {
           // As E weighs it, so that a few bright pixels do not decide.
           const double mean = double(pixel_mean(films[0].pixels[i])[c] + pixel_mean(films[1].pixels[i])[c]) / 2;

@@ -91,9 +91,9 @@ TEST(Catcher, LeavesTheClothAsItIs) {
   int shadowed = 0, clear = 0;
   for (size_t i = 0; i < with.pixels.size(); ++i) {
     EXPECT_EQ(pixel_mean(with.pixels[i]), pixel_mean(without.pixels[i]));
-    if (without.pixels[i].alpha > 0) continue;
-    EXPECT_GE(with.pixels[i].alpha, 0);
-    ++(with.pixels[i].alpha > 0.05 * 16 ? shadowed : clear);
+    if (pixel_coverage(without.pixels[i]) > 0) continue;
+    EXPECT_GE(pixel_coverage(with.pixels[i]), 0);
+    ++(pixel_coverage(with.pixels[i]) > 0.05 ? shadowed : clear);
   }
   EXPECT_GT(shadowed, 30);
   EXPECT_GT(clear, 300);

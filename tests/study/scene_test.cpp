@@ -70,7 +70,7 @@ Film noisy_film(std::uint64_t seed, float bias) {
   std::uint64_t state = seed * 977 + 13;
   for (FilmPixel& pixel : film.pixels) {
     pixel.samples = replicates;
-    pixel.alpha = replicates;
+    pixel.coverage = {1, 1, 1, 1};
     for (Vec3d& c : pixel.beauty) {
       state = state * 6364136223846793005ull + 1442695040888963407ull;
       c = Vec3d(1 + bias + 0.4f * (float(state >> 40) / float(1 << 24) - 0.5f));
