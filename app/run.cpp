@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <exception>
 #include <new>
 
@@ -16,6 +17,14 @@
 #include "signals.h"
 
 namespace sateen::app {
+
+namespace {
+const auto program_start = std::chrono::steady_clock::now();
+}
+
+double seconds_since_start() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - program_start).count();
+}
 
 const std::vector<Subcommand>& subcommands() {
   static const std::vector<Subcommand> all{

@@ -6,4 +6,7 @@ namespace sateen::app {
 /// code (see `sateen --help`).
 int run(int argc, char** argv);
 
+/// Wall clock since the program began.
+double seconds_since_start();
+
 }  // namespace sateen::app

@@ -113,22 +113,30 @@ std::vector<Vec3d> pooled_variances(const Film& film) {
 double deviation_of_share(const Film& film, const std::vector<PixelError>& errors, double share) {
   std::vector<double> own(errors.size());
   for (size_t i = 0; i < own.size(); ++i) own[i] = errors[i].relative;
-  std::vector<double> deviations = half_from_neighbours(film, own);
+  const std::vector<double> squares = half_from_neighbours(film, own);
   double all = 0, largest = 0;
   for (size_t i = 0; i < errors.size(); ++i) {
-    deviations[i] = std::sqrt(deviations[i]);
     if (!errors[i].known) continue;
     all += errors[i].coverage;
-    largest = std::max(largest, deviations[i]);
+    largest = std::max(largest, std::sqrt(squares[i]));
   }
-  if (!(all > 0)) return 0;
+  if (!(all > 0) || !(largest > 0)) return 0;
+  // Deviations are counted in steps of a two-hundredth of an octave; what is below 2^-40 of the largest is none.
+  constexpr int steps = 200, octaves = 40;
+  std::vector<double> count(steps * octaves + 1);
+  for (size_t i = 0; i < errors.size(); ++i) {
+    if (!errors[i].known) continue;
+    const double below = squares[i] > 0 ? -std::log2(std::sqrt(squares[i]) / largest) * steps : steps * octaves;
+    count[size_t(std::clamp(below, 0.0, double(steps * octaves)))] += errors[i].coverage;
+  }
   double low = 0, high = 10 * largest;
   for (int k = 0; k < 40; ++k) {
     const double x = (low + high) / 2;
-    double inside = 0;
-    for (size_t i = 0; i < errors.size(); ++i)
-      if (errors[i].known)
-        inside += errors[i].coverage * (deviations[i] > 0 ? std::erf(x / deviations[i] / std::sqrt(2.0)) : 1);
+    double inside = count.back();
+    for (int step = 0; step < steps * octaves; ++step) {
+      const double deviation = largest * std::exp2(-(step + 0.5) / steps);
+      if (count[size_t(step)] > 0) inside += count[size_t(step)] * std::erf(x / deviation / std::sqrt(2.0));
+    }
     (inside < share * all ? low : high) = x;
   }
   return high;

@@ -53,7 +53,7 @@ std::vector<double> noise_around(const Film& film, const ErrorScale& scale) {
 // between E is up to a tenth larger than the number of samples says.
 double even_number(double samples) {
   if (samples < 6) return 4;
-  const double power = std::exp2(std::floor(std::log2(samples))), ratio = samples / power;
+  const double power = std::ldexp(1.0, std::ilogb(samples)), ratio = samples / power;
   return ratio < std::sqrt(1.5) ? power : ratio < std::sqrt(3.0) ? 1.5 * power : 2 * power;
 }
 

@@ -16,7 +16,7 @@ struct StopRules {
   int spp = 0;       ///< samples per pixel; their mean where samples are dealt out by error
   double error = 0;  ///< upper end of the interval of E (film/error.h), looked at at barriers (render/allocation.h),
                      ///< a coarse one before the first, too
-  double seconds = 0;  ///< wall clock, from the start of render()
+  double seconds = 0;  ///< wall clock, from the start of render(); a first complete pass is taken however long it is
 
   bool operator==(const StopRules&) const = default;
 };
@@ -24,6 +24,7 @@ struct StopRules {
 struct RenderSettings {
   LightSettings light;
   StopRules stop;
+  double seconds_spent = 0;  ///< of stop.seconds, on what comes before and after render()
   std::uint32_t seed = 1;
   int threads = 0;                           ///< 0: all that this process may use
   Crop crop;                                 ///< all zero: the whole picture
