@@ -15,9 +15,11 @@
 #include "look/json_writer.h"
 #include "look/read.h"
 #include "measured_look.h"
+#include "mesh/check_cage.h"
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
+#include "mesh/weld.h"
 #include "scene/environment_file.h"
 #include "scene/environment_make.h"
 
@@ -90,28 +92,54 @@ void check_look(Finding& f) {
   if (look.source.empty()) f.notices.push_back("it has no source: say in \"source\" where its numbers come from");
 }
 
-void check_mesh(Finding& f) {
-  const ControlMesh cage = is_built_in_shape(f.path) ? built_in_shape(f.path) : read_obj(f.path);
-  size_t triangles = 0, quads = 0;
+/// "9 vertices, 4 faces: 3 quads, 1 triangle"
+std::string cage_text(const ControlMesh& cage) {
+  long long triangles = 0, quads = 0;
   for (const int size : cage.face_sizes) triangles += size == 3, quads += size == 4;
-  f.facts.push_back(fmt::format("{} vertices, {} faces: {} quads, {} triangles, {} with more corners",
-                                cage.positions.size(), cage.face_sizes.size(), quads, triangles,
-                                cage.face_sizes.size() - quads - triangles));
+  const long long faces = (long long)cage.face_sizes.size(), others = faces - triangles - quads;
+  std::string kinds;
+  const auto add = [&](long long count, const std::string& text) {
+    if (count > 0) kinds += (kinds.empty() ? "" : ", ") + text;
+  };
+  add(quads, counted(quads, "quad"));
+  add(triangles, counted(triangles, "triangle"));
+  add(others, counted(others, "face") + " of five corners or more");
+  std::vector<bool> used(cage.positions.size(), false);
+  for (const int i : cage.position_indices) used[size_t(i)] = true;
+  const long long vertices = std::count(used.begin(), used.end(), true), unused = (long long)used.size() - vertices;
+  return fmt::format("{}{}, {}: {}", counted(vertices, "vertex"),
+                     unused > 0 ? fmt::format(" ({} more that no face uses)", unused) : "", counted(faces, "face"),
+                     kinds);
+}
+
+void check_mesh(Finding& f, bool weld) {
+  ControlMesh cage = is_built_in_shape(f.path) ? built_in_shape(f.path) : read_obj(f.path);
+  if (weld) {
+    const Touching welded = weld_borders(cage);
+    f.facts.push_back(
+        fmt::format("welded along {}, {} fewer", counted(welded.edges, "edge"), counted(welded.vertices, "vertex")));
+  } else if (const std::string touching = touching_text(touching_borders(cage)); !touching.empty()) {
+    f.notices.push_back(touching + ": a crease shows there; weld them on export, or with --weld");
+  }
+  f.facts.push_back("cage of " + cage_text(cage));
   if (!cage.creases.empty() || !cage.corners.empty() || !cage.holes.empty())
-    f.facts.push_back(fmt::format("{} creases, {} sharp corners, {} holes", cage.creases.size(), cage.corners.size(),
-                                  cage.holes.size()));
+    f.facts.push_back(fmt::format("{}, {}, {}", counted((long long)cage.creases.size(), "creased edge"),
+                                  counted((long long)cage.corners.size(), "sharp corner"),
+                                  counted((long long)cage.holes.size(), "face") + " cut out as holes"));
+  settle_placement(cage);
   const Mesh mesh = subdivide(cage, 1);
-  const Vec3 size = mesh.bounds_max - mesh.bounds_min;
+  const Vec3d size = Vec3d(mesh.bounds_max - mesh.bounds_min) * mesh.placement.unit;
   f.facts.push_back(fmt::format("limit surface {:.4g} x {:.4g} x {:.4g} scene units", size.x, size.y, size.z));
   for (const std::string& warning : mesh.warnings) f.notices.push_back(warning);
   if (cage.uvs.empty()) {
     f.notices.push_back(
         "it has no UVs: the warp follows the object's X axis; unwrap it so that u runs along the warp");
   } else if (mesh.fallback_warps > 0) {
-    f.notices.push_back(fmt::format(
-        "{} of {} vertices have missing or degenerate UVs: their warp follows the object's X axis; --aov warp "
-        "shows where",
-        mesh.fallback_warps, mesh.positions.size()));
+    f.notices.push_back(
+        fmt::format("{} of its {} vertices at level 1 have missing or degenerate UVs: the warp follows the object's "
+                    "X axis there; "
+                    "--aov warp shows where",
+                    mesh.fallback_warps, mesh.positions.size()));
   }
 }
 
@@ -129,13 +157,13 @@ void check_map(Finding& f) {
     f.notices.push_back("a format without high dynamic range: lights are cut at white; use EXR or HDR");
 }
 
-Finding examine(const std::string& name) {
+Finding examine(const std::string& name, bool weld) {
   Finding f;
   f.path = name;
   try {
     f.kind = kind_of(name);
     if (f.kind == "look") check_look(f);
-    if (f.kind == "mesh") check_mesh(f);
+    if (f.kind == "mesh") check_mesh(f, weld);
     if (f.kind == "map") check_map(f);
     if (f.kind == "map description") {
       const MapDescription d = read_map_description(name);
@@ -155,6 +183,8 @@ int run_check(const std::vector<std::string>& words) {
       "check", "Says what looks, meshes and HDR maps hold, what is wrong with them or was repaired, and what to do.",
       "FILE... [--json]");
   command.arguments("FILE", names, 1, 10000, "looks, meshes, maps and map descriptions in any mixture; names too");
+  bool weld = false;
+  command.flag("--weld", weld, "joins borders of meshes that coincide, as sateen render --weld does");
   command.flag("--json", voice.json, "the same as JSON");
   command.example("sateen check my_look.json dress.obj studio.hdr", "three files of three kinds");
   if (!command.parse(words)) return done;
@@ -162,7 +192,7 @@ int run_check(const std::vector<std::string>& words) {
   JsonWriter w;
   w.open_object().key("files").open_list();
   for (const std::string& name : names) {
-    const Finding f = examine(name);
+    const Finding f = examine(name, weld);
     code = std::max(code, f.code);
     w.open_object().member("path", f.path).member("kind", f.kind).member("usable", f.error.empty());
     w.key("facts").open_list();

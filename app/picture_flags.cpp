@@ -25,6 +25,7 @@ void add_scene(Command& c, PictureFlags& f) {
   std::string shapes;
   for (const std::string& shape : built_in_shapes()) shapes += (shapes.empty() ? "" : ", ") + shape;
   c.text("-m,--mesh", "NAME|FILE.obj", s.mesh, fmt::format("{}, or an OBJ (default: {})", shapes, s.mesh));
+  c.flag("--weld", s.weld, "joins borders of the mesh that coincide, such as sewn seams that were exported apart");
   c.custom(
       "--level", "N|auto", 1, 1,
       [&s](const auto& w) { s.level = w.back() == "auto" ? -1 : read_integer("--level", w.back(), 0, 6); },

@@ -150,8 +150,8 @@ std::array<float, 2> presence_of(const ClothPoint& point) {
 /// The first cloth that a sample sees: what else is told of it.
 void see_first(const Scene& scene, const ClothPoint& point, CameraSample& sample) {
   sample.hit = true;
-  sample.position =
-      scene.shutter ? scene.shutter->to_world(point.surface.position, point.object) : point.surface.position;
+  sample.position = scene.mesh->placement.to_scene(
+      scene.shutter ? scene.shutter->to_world(point.surface.position, point.object) : point.surface.position);
   sample.normal = point.frame.z;
   sample.warp = point.frame.x;
   sample.uv = point.surface.uv;

@@ -4,13 +4,21 @@
 #include <vector>
 
 #include "math/vector.h"
+#include "mesh/placement.h"
 
 namespace sateen {
 
-/// A cage as its author wrote it: n-gons, face-varying UVs, OpenSubdiv tags. Y is up; lengths in scene units.
+/// A cage as its author wrote it: n-gons, face-varying UVs, OpenSubdiv tags. Y is up; lengths in scene units, or as
+/// the placement says.
 struct ControlMesh {
-  struct Crease { std::vector<int> vertices; float sharpness = 0; };  ///< chain of vertices; sharpness 0 to 10
-  struct Corner { int vertex = 0; float sharpness = 0; };
+  struct Crease {
+    std::vector<int> vertices;
+    float sharpness = 0;
+  };  ///< chain of vertices; sharpness 0 to 10
+  struct Corner {
+    int vertex = 0;
+    float sharpness = 0;
+  };
   enum class Scheme { catmull_clark, loop, bilinear };
   enum class Boundary { none, edge_only, edge_and_corner };
   enum class FvarBoundary { none, corners_only, corners_plus1, corners_plus2, boundaries, all };
@@ -22,11 +30,12 @@ struct ControlMesh {
   std::vector<int> uv_indices;        ///< one a corner, -1 where the corner has none; empty when no face has
   std::vector<Crease> creases;
   std::vector<Corner> corners;
-  std::vector<int> holes;             ///< faces that are cut out
+  std::vector<int> holes;  ///< faces that are cut out
   Scheme scheme = Scheme::catmull_clark;
   Boundary boundary = Boundary::edge_and_corner;
   FvarBoundary fvar_boundary = FvarBoundary::corners_plus1;
-  float metres_per_uv = 0;            ///< 0: unknown
+  float metres_per_uv = 0;  ///< 0: unknown
+  Placement placement;
   std::string name;
   std::vector<std::string> warnings;  ///< dropped faces and the like, each with place and count
 };

@@ -1,6 +1,8 @@
 #include "mesh/numbering.h"
 
-#include <numeric>
+#include <map>
+
+#include "mesh/corner_groups.h"
 
 namespace sateen {
 
@@ -11,23 +13,6 @@ using OpenSubdiv::Far::TopologyLevel;
 constexpr std::uint32_t none = 0xffffffffu;
 constexpr float infinitely_sharp = 10;  // Sdc::Crease::SHARPNESS_INFINITE
 
-/// Union of corners that share one vertex of the refined mesh.
-struct Groups {
-  std::vector<std::uint32_t> parent;
-  explicit Groups(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    // The smaller stays root, so that numbers follow the order of the file.
-    if (a < b) parent[b] = a;
-    if (b < a) parent[a] = b;
-  }
-};
-
 int place_of(const ConstIndexArray& vertices, int vertex) {
   int i = 0;
   while (vertices[i] != vertex) ++i;
@@ -36,8 +21,9 @@ int place_of(const ConstIndexArray& vertices, int vertex) {
 
 class Numberer {
  public:
-  Numberer(const TopologyLevel& cage, bool has_uvs, const std::vector<bool>& mirrored, Numbering& out)
-      : cage_(cage), has_uvs_(has_uvs), mirrored_(mirrored), out_(out) {}
+  Numberer(const TopologyLevel& cage, bool has_uvs, const std::vector<bool>& mirrored, const std::vector<int>& origin,
+           Numbering& out)
+      : cage_(cage), has_uvs_(has_uvs), mirrored_(mirrored), origin_(origin), out_(out) {}
 
   bool joined(int edge) const;
   void number_corners();
@@ -47,9 +33,29 @@ class Numberer {
  private:
   const TopologyLevel& cage_;
   bool has_uvs_;
+  std::size_t origin(int vertex) const {
+    return std::size_t(origin_.empty() ? vertex : origin_[std::size_t(vertex)]);
+  }
+  std::vector<std::uint32_t> alike_edges() const;
+
   const std::vector<bool>& mirrored_;
+  const std::vector<int>& origin_;
   Numbering& out_;
 };
+
+/// Of each edge, the first one in the same place.
+std::vector<std::uint32_t> Numberer::alike_edges() const {
+  std::vector<std::uint32_t> alike(std::size_t(cage_.GetNumEdges()));
+  std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> known;
+  for (std::uint32_t e = 0; e < alike.size(); ++e) {
+    alike[e] = e;
+    const ConstIndexArray ends = cage_.GetEdgeVertices(int(e));
+    // Edges were doubled at borders alone.
+    if (origin_.empty() || cage_.GetEdgeFaces(int(e)).size() != 1) continue;
+    alike[e] = known.try_emplace(std::minmax(origin(ends[0]), origin(ends[1])), e).first->second;
+  }
+  return alike;
+}
 
 bool Numberer::joined(int edge) const {
   const ConstIndexArray faces = cage_.GetEdgeFaces(edge);
@@ -68,7 +74,7 @@ bool Numberer::joined(int edge) const {
 
 void Numberer::number_corners() {
   const size_t corners = out_.face_corner.back();
-  Groups groups(corners);
+  CornerGroups groups(corners);
   for (int edge = 0; edge < cage_.GetNumEdges(); ++edge) {
     if (!joined(edge)) continue;
     const ConstIndexArray faces = cage_.GetEdgeFaces(edge), ends = cage_.GetEdgeVertices(edge);
@@ -91,7 +97,7 @@ void Numberer::number_corners() {
         continue;
       }
       const std::uint32_t vertex = out_.corner_vertex[corner] = out_.vertices++;
-      std::uint32_t& canonical = first[size_t(vertices[int(corner - out_.face_corner[face])])];
+      std::uint32_t& canonical = first[origin(vertices[int(corner - out_.face_corner[face])])];
       if (canonical == none)
         canonical = vertex;
       else
@@ -105,19 +111,24 @@ void Numberer::number_edges() {
   if (points == 0) return;
   out_.edge_start.resize(out_.face_corner.back());
   out_.edge_reversed.resize(out_.face_corner.back());
-  std::vector<std::uint32_t> first(size_t(cage_.GetNumEdges()), none);
+  const std::vector<std::uint32_t> alike = alike_edges();
+  std::vector<std::uint32_t> own(alike.size(), none), first(alike.size(), none);
   for (size_t face = 0; face < out_.has_limit.size(); ++face) {
     if (!out_.has_limit[face]) continue;
     const ConstIndexArray edges = cage_.GetFaceEdges(int(face)), vertices = cage_.GetFaceVertices(int(face));
     for (int i = 0; i < edges.size(); ++i) {
       const std::uint32_t corner = out_.face_corner[face] + std::uint32_t(i);
-      out_.edge_reversed[corner] = cage_.GetEdgeVertices(edges[i])[0] != vertices[i];
-      std::uint32_t& canonical = first[size_t(edges[i])];
-      if (canonical != none && joined(edges[i])) {
-        out_.edge_start[corner] = canonical;
+      const size_t edge = size_t(edges[i]);
+      const ConstIndexArray ends = cage_.GetEdgeVertices(edges[i]);
+      // Edges in the same place run the same way.
+      const bool turned = !origin_.empty() && origin(ends[0]) > origin(ends[1]);
+      out_.edge_reversed[corner] = (ends[0] != vertices[i]) != turned;
+      if (own[edge] != none && joined(edges[i])) {
+        out_.edge_start[corner] = own[edge];
         continue;
       }
-      out_.edge_start[corner] = out_.vertices;
+      out_.edge_start[corner] = own[edge] = out_.vertices;
+      std::uint32_t& canonical = first[alike[edge]];
       if (canonical == none)
         canonical = out_.vertices;
       else
@@ -161,7 +172,8 @@ std::int64_t quads_of_face(int corners, int segments, bool triangles) {
 }
 
 Numbering number_vertices(const TopologyLevel& cage, int level, bool triangles, bool has_uvs,
-                          std::vector<bool> has_limit, const std::vector<bool>& mirrored) {
+                          std::vector<bool> has_limit, const std::vector<bool>& mirrored,
+                          const std::vector<int>& origin) {
   Numbering out;
   out.segments = 1 << level;
   out.triangles = triangles;
@@ -170,7 +182,7 @@ Numbering number_vertices(const TopologyLevel& cage, int level, bool triangles, 
   for (int face = 0; face < cage.GetNumFaces(); ++face)
     out.face_corner[size_t(face) + 1] =
         out.face_corner[size_t(face)] + std::uint32_t(cage.GetFaceVertices(face).size());
-  Numberer numberer(cage, has_uvs, mirrored, out);
+  Numberer numberer(cage, has_uvs, mirrored, origin, out);
   numberer.number_corners();
   numberer.number_edges();
   numberer.number_faces();

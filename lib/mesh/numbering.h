@@ -37,8 +37,10 @@ struct Numbering {
 
 std::int64_t quads_of_face(int corners, int segments, bool triangles);
 
-/// `mirrored[f]`: the UVs of face f run the other way round.
+/// `mirrored[f]`: the UVs of face f run the other way round. `origin`: of each vertex, the first one in the same
+/// place (mesh/manifold.h); empty: itself.
 Numbering number_vertices(const OpenSubdiv::Far::TopologyLevel& cage, int level, bool triangles, bool has_uvs,
-                          std::vector<bool> has_limit, const std::vector<bool>& mirrored);
+                          std::vector<bool> has_limit, const std::vector<bool>& mirrored,
+                          const std::vector<int>& origin = {});
 
 }  // namespace sateen

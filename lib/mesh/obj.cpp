@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "mesh/check_cage.h"
+#include "mesh/cut_polygon.h"
+#include "mesh/obj_groups.h"
 #include "mesh/obj_tags.h"
 #include "mesh/obj_text.h"
 
@@ -38,17 +41,22 @@ class Reader {
   bool read_corner(std::string_view word, int& position, int& uv);
   bool read_index(std::string_view word, std::string_view what, size_t count, bool is_uv, int& index);
   void keep_face(int line);
+  void cut_faces();
   void check_forward_indices();
   void drop_bad_uvs();
-  void warn(const Count& count, std::string_view what);
+  void warn(const Count& count, const char* thing, const char* one, const char* many);
 
   Text text_;
   ControlMesh mesh_;
   obj::Tags tags_;
   std::vector<int> face_positions_, face_uvs_;  // the current face
   bool any_uv_ = false;
-  int file_faces_ = 0;
-  std::vector<int> face_numbers_;  // filled from the first dropped face on
+  std::vector<int> first_of_face_;  // see Tags::apply
+  struct Tangled {
+    size_t face, corner;  // of the mesh
+    int line;
+  };
+  std::vector<Tangled> tangled_;  // faces that meet a vertex twice, to be cut when all vertices are known
   std::vector<int> bad_uvs_;
   struct Forward {
     std::string_view word;
@@ -56,7 +64,8 @@ class Reader {
     bool is_uv;
   };
   std::vector<Forward> forward_;  // positive indices beyond what had been read when they were met
-  Count repeated_, unknown_, bad_uv_, mixed_uv_;
+  obj::Groups groups_;
+  Count repeated_, cut_, dropped_, unknown_, bad_uv_, mixed_uv_;
 };
 
 bool Reader::read_number(std::string_view what, float& value, bool refuse_non_finite) {
@@ -167,7 +176,7 @@ void Reader::read_face() {
 }
 
 void Reader::keep_face(int line) {
-  // Corners that repeat their predecessor are dropped; a face that still meets a vertex twice is no polygon.
+  // Corners that repeat their predecessor are dropped; a face that still meets a vertex twice is cut in the end.
   size_t kept = 0;
   const size_t n = face_positions_.size();
   for (size_t i = 0; i < n; ++i) {
@@ -176,33 +185,54 @@ void Reader::keep_face(int line) {
     face_uvs_[kept] = face_uvs_[i];
     ++kept;
   }
-  bool polygon = kept >= 3;
-  if (kept <= 8) {
-    for (size_t i = 0; i < kept && polygon; ++i)
-      for (size_t j = i + 1; j < kept; ++j)
-        if (face_positions_[i] == face_positions_[j]) polygon = false;
-  } else {
-    std::vector<int> sorted(face_positions_.begin(), face_positions_.begin() + long(kept));
-    std::sort(sorted.begin(), sorted.end());
-    polygon = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-  }
-  if (kept < n || !polygon) repeated_.add(line);
-  if (!polygon && face_numbers_.empty()) {
-    face_numbers_.resize(size_t(file_faces_));
-    for (int i = 0; i < file_faces_; ++i) face_numbers_[size_t(i)] = i;
-  }
-  ++file_faces_;
-  if (!polygon || !face_numbers_.empty()) face_numbers_.push_back(polygon ? int(mesh_.face_sizes.size()) : -1);
-  if (!polygon) return;
+  const bool polygon = kept >= 3 && !meets_a_vertex_twice({face_positions_.data(), kept});
+  if (!polygon)
+    tangled_.push_back({mesh_.face_sizes.size(), mesh_.position_indices.size(), line});
+  else if (kept < n)
+    repeated_.add(line);
   mesh_.face_sizes.push_back(int(kept));
   mesh_.position_indices.insert(mesh_.position_indices.end(), face_positions_.begin(),
                                 face_positions_.begin() + long(kept));
-  any_uv_ = any_uv_ || face_uvs_[0] >= 0;
+  any_uv_ = any_uv_ || (kept > 0 && face_uvs_[0] >= 0);
   // Filled late: a file without texture coordinates pays nothing for them.
   if (any_uv_) {
     mesh_.uv_indices.resize(mesh_.position_indices.size() - kept, -1);
     mesh_.uv_indices.insert(mesh_.uv_indices.end(), face_uvs_.begin(), face_uvs_.begin() + long(kept));
   }
+}
+
+/// Cuts or drops the faces that meet a vertex twice; those behind them move.
+void Reader::cut_faces() {
+  if (tangled_.empty()) return;
+  std::vector<int> sizes, positions, uvs;
+  sizes.swap(mesh_.face_sizes);
+  positions.swap(mesh_.position_indices);
+  uvs.swap(mesh_.uv_indices);
+  const auto corner_at = [&](size_t i) { return PolygonCorner{positions[i], any_uv_ ? uvs[i] : -1}; };
+  const auto add = [&](const std::vector<PolygonCorner>& face) {
+    mesh_.face_sizes.push_back(int(face.size()));
+    for (const PolygonCorner& c : face) {
+      mesh_.position_indices.push_back(c.vertex);
+      if (any_uv_) mesh_.uv_indices.push_back(c.uv);
+    }
+  };
+  size_t at = 0;
+  std::vector<PolygonCorner> face;
+  auto tangled = tangled_.begin();
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    first_of_face_.push_back(int(mesh_.face_sizes.size()));
+    face.clear();
+    for (int k = 0; k < sizes[i]; ++k) face.push_back(corner_at(at++));
+    if (tangled == tangled_.end() || tangled->face != i) {
+      add(face);
+      continue;
+    }
+    const std::vector<std::vector<PolygonCorner>> pieces = cut_polygon(std::move(face), mesh_.positions);
+    for (const std::vector<PolygonCorner>& piece : pieces) add(piece);
+    (pieces.empty() ? dropped_ : cut_).add(tangled->line);
+    ++tangled;
+  }
+  first_of_face_.push_back(int(mesh_.face_sizes.size()));
 }
 
 void Reader::check_forward_indices() {
@@ -227,9 +257,10 @@ void Reader::drop_bad_uvs() {
   }
 }
 
-void Reader::warn(const Count& count, std::string_view what) {
+void Reader::warn(const Count& count, const char* thing, const char* one, const char* many) {
   if (count.count)
-    mesh_.warnings.push_back(fmt::format("{}:{}: {} {}", mesh_.name, count.first_line, count.count, what));
+    mesh_.warnings.push_back(fmt::format("{}:{}: {} {}", mesh_.name, count.first_line, counted(count.count, thing),
+                                         count.count == 1 ? one : many));
 }
 
 ControlMesh Reader::read() {
@@ -249,29 +280,45 @@ ControlMesh Reader::read() {
     } else if (key == "f" || key == "fo") {
       seen_face = true;
       read_face();
+      groups_.add_face();
     } else if (key == "t") {
       tags_.read(text_);
+    } else if (key == "usemtl" || key == "g" || key == "o") {
+      groups_.begin(key, text_);
     } else if (static_cast<unsigned char>(key[0]) < 0x20 || static_cast<unsigned char>(key[0]) >= 0x7f) {
       unknown_.add(text_.line());
     }
   }
   if (!text_.gave_up()) {
     check_forward_indices();
-    if (text_.errors().empty()) tags_.apply(text_, face_numbers_, file_faces_, mesh_);
+    if (text_.errors().empty()) {
+      if (any_uv_) mesh_.uv_indices.resize(mesh_.position_indices.size(), -1);
+      const int file_faces = int(mesh_.face_sizes.size());
+      cut_faces();
+      tags_.apply(text_, first_of_face_, file_faces, mesh_);
+    }
   }
   if (!text_.errors().empty()) throw InputError(InputError::Kind::wrong, std::move(text_.errors()));
   if (mesh_.face_sizes.empty())
-    throw InputError(fmt::format("{}: {}", mesh_.name,
-                                 seen_face ? "no face is left after dropping those that use a vertex twice"
-                                           : "holds no face, expected at least one"),
-                     seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
+    throw InputError(
+        fmt::format("{}: {}", mesh_.name,
+                    seen_face ? "no face is left after dropping those that meet a vertex twice and have no area"
+                              : "holds no face, expected at least one"),
+        seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
   drop_bad_uvs();
-  if (any_uv_) mesh_.uv_indices.resize(mesh_.position_indices.size(), -1);
   if (!any_uv_) mesh_.uvs.clear();
-  warn(repeated_, "faces use a vertex twice: the repetition or the face was dropped");
-  warn(mixed_uv_, "faces have UVs at some corners only: their UVs were dropped");
-  warn(bad_uv_, "texture coordinates are not finite or reach 1e15: the faces that use them lost their UVs");
-  warn(unknown_, "lines are not text of an OBJ file: passed over");
+  warn(repeated_, "face", "repeats a corner: the repetition was dropped",
+       "repeat a corner: the repetition was dropped");
+  warn(cut_, "face", "meets a vertex twice, as around a hole: it was cut into simple ones",
+       "meet a vertex twice, as around a hole: they were cut into simple ones");
+  warn(dropped_, "face", "meets a vertex twice and crosses itself or has no area: it was dropped",
+       "meet a vertex twice and cross themselves or have no area: they were dropped");
+  warn(mixed_uv_, "face", "has UVs at some corners only: its UVs were dropped",
+       "have UVs at some corners only: their UVs were dropped");
+  warn(bad_uv_, "texture coordinate", "is not finite or reaches 1e15: the faces that use it lost their UVs",
+       "are not finite or reach 1e15: the faces that use them lost their UVs");
+  warn(unknown_, "line", "is not text of an OBJ file: passed over", "are not text of an OBJ file: passed over");
+  if (const std::string told = groups_.told(); !told.empty()) mesh_.warnings.push_back(mesh_.name + ": " + told);
   return std::move(mesh_);
 }
 

@@ -7,13 +7,15 @@
 namespace sateen {
 
 /// Reads a Wavefront OBJ with OpenSubdiv's `t` tags (indices in tags count from 0). Positions, texture coordinates
-/// and faces are read; groups, materials, normals, vertex colours, points and lines are passed over. Faces keep
-/// their corners, of any number up to what fits a line, and positions and texture coordinates keep their own indices.
+/// and faces are read; normals, vertex colours, points and lines are passed over, groups and materials are counted in
+/// a warning, for all of a mesh has one look. Faces keep their corners, of any number up to what fits a line, and
+/// positions and texture coordinates keep their own indices.
 ///
 /// Refused, as one InputError with file:line:column of every error (at most 100 are looked for): numbers that do not
 /// parse, are not finite or reach 1e15, an index 0 or out of range, a face of fewer than 3 corners, a logical line
-/// above 1 MiB, a file without a face. Mended with a counted warning: faces that use a vertex twice, texture
-/// coordinates that are not finite (their faces lose their UVs), tags that are unknown or malformed.
+/// above 1 MiB, a file without a face. Mended with a counted warning: faces that meet a vertex twice (cut,
+/// see cut_polygon.h), texture coordinates that are not finite (their faces lose their UVs), tags that are unknown or
+/// malformed.
 ///
 /// Why not tinyobjloader: it stops at 255 corners a face, tells no place, takes indices out of range and turns 1e999
 /// into Inf. About 170 to 300 MB/s; tests/scene/million_triangles_test.cpp holds it above 50.

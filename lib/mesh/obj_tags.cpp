@@ -107,7 +107,7 @@ void drop_duplicates(ControlMesh& mesh) {
 }
 }  // namespace
 
-void Tags::apply(Text& text, const std::vector<int>& face_numbers, int file_faces, ControlMesh& mesh) {
+void Tags::apply(Text& text, const std::vector<int>& first_of_face, int file_faces, ControlMesh& mesh) {
   using Boundary = ControlMesh::Boundary;
   using Fvar = ControlMesh::FvarBoundary;
   constexpr std::array boundaries{Boundary::none, Boundary::edge_and_corner, Boundary::edge_only};
@@ -135,8 +135,11 @@ void Tags::apply(Text& text, const std::vector<int>& face_numbers, int file_face
         if (face < 0 || face >= file_faces)
           text.error_anywhere(tag.integer_words[i],
                               fmt::format("hole at face {}, expected 0 to {}", face, file_faces - 1));
-        else if (const int kept = face_numbers.empty() ? int(face) : face_numbers[size_t(face)]; kept >= 0)
-          mesh.holes.push_back(kept);
+        else if (first_of_face.empty())
+          mesh.holes.push_back(int(face));
+        else
+          for (int piece = first_of_face[size_t(face)]; piece < first_of_face[size_t(face) + 1]; ++piece)
+            mesh.holes.push_back(piece);
       }
     }
   }

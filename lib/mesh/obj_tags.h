@@ -15,8 +15,9 @@ class Tags {
   /// Reads the rest of the current line. Malformed or unknown tags are counted, not refused: other programs write
   /// lines that begin with t too.
   void read(Text& text);
-  /// `face_numbers[i]` is the place in the cage of the file's face i, or -1 where it was dropped; empty: all kept.
-  void apply(Text& text, const std::vector<int>& face_numbers, int file_faces, ControlMesh& mesh);
+  /// `first_of_face[i]` is the place in the cage of the first piece of the file's face i, with one past the last;
+  /// empty: each face is its own piece.
+  void apply(Text& text, const std::vector<int>& first_of_face, int file_faces, ControlMesh& mesh);
 
  private:
   struct Tag {

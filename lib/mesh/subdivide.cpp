@@ -10,8 +10,10 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mesh/check_cage.h"
 #include "mesh/face_points.h"
 #include "mesh/limit_surface.h"
+#include "mesh/manifold.h"
 #include "mesh/uniform_refinement.h"
 #include "mesh/unrefined.h"
 #include "mesh/vertex_values.h"
@@ -133,7 +135,8 @@ void Evaluation::run(int threads) {
     for (std::uint32_t k = 0; k < copy.count; ++k) mesh_.positions[copy.to + k] = mesh_.positions[copy.from + k];
 }
 
-Mesh refine(const ControlMesh& cage, int level, int threads) {
+/// `origin`: of each vertex, see number_vertices.
+Mesh refine_manifold(const ControlMesh& cage, const std::vector<int>& origin, int level, int threads) {
   const ControlPoints points = control_points(cage);
   const auto refiner = cage_topology(cage, points);
   if (needs_uniform_refinement(refiner->GetLevel(0))) return uniformly_refined(*refiner, points, level);
@@ -142,12 +145,33 @@ Mesh refine(const ControlMesh& cage, int level, int threads) {
   for (size_t face = 0; face < has_limit.size(); ++face) has_limit[face] = surface.has_limit(int(face));
   const std::vector<bool> mirrored = mirrored_faces(cage);
   const Numbering numbering = number_vertices(refiner->GetLevel(0), level, cage.scheme == ControlMesh::Scheme::loop,
-                                              !points.uvs.empty(), std::move(has_limit), mirrored);
+                                              !points.uvs.empty(), std::move(has_limit), mirrored, origin);
   Mesh mesh;
   Evaluation evaluation(surface, numbering, mirrored, mesh);
   evaluation.run(threads);
   if (mesh.quads.empty()) throw Refusal{"no face has a limit surface"};
   evaluation.values().finish(points, threads);
+  return mesh;
+}
+
+std::string cut_warning(const CutCage& cut) {
+  std::string text = cut.cage.name + ": ";
+  if (cut.edges > 0)
+    text += fmt::format("{} where more than two faces meet or two are turned against each other",
+                        counted(cut.edges, "edge"));
+  if (cut.vertices > 0)
+    text += fmt::format("{}{} where several surfaces meet", cut.edges > 0 ? ", and " : "",
+                        counted(cut.vertices, "vertex"));
+  return text + ": each is smooth by itself and sharp there";
+}
+
+/// What libraries get is a manifold within their limits, whatever the cage is.
+Mesh refine(const ControlMesh& cage, int level, int threads) {
+  if (const std::string reason = beyond_limits(cage); !reason.empty()) throw Refusal{reason};
+  const std::optional<CutCage> cut = cut_into_manifolds(cage);
+  if (!cut) return refine_manifold(cage, {}, level, threads);
+  Mesh mesh = refine_manifold(cut->cage, cut->origin, level, threads);
+  mesh.warnings.insert(mesh.warnings.begin(), cut_warning(*cut));
   return mesh;
 }
 
@@ -164,6 +188,7 @@ void check_level(const ControlMesh& cage, int level) {
 }  // namespace
 
 Mesh subdivide(const ControlMesh& cage, int level, int threads) {
+  check_cage(cage);
   check_level(cage, level);
   try {
     Mesh mesh;
@@ -179,6 +204,7 @@ Mesh subdivide(const ControlMesh& cage, int level, int threads) {
     mesh.refined = !refused;
     mesh.name = cage.name;
     mesh.metres_per_uv = cage.metres_per_uv;
+    mesh.placement = cage.placement;
     mesh.warnings.insert(mesh.warnings.begin(), cage.warnings.begin(), cage.warnings.end());
     if (refused)
       mesh.warnings.push_back(

@@ -9,15 +9,19 @@ namespace sateen {
 
 namespace {
 
-/// Corners of the cage that share position and UV share a vertex.
-std::vector<std::uint32_t> vertices_of_corners(const ControlMesh& cage, std::uint32_t& vertices) {
+/// Corners of the faces that are shown, that share position and UV, share a vertex.
+std::vector<std::uint32_t> vertices_of_corners(const ControlMesh& cage, const std::vector<bool>& shown,
+                                               std::uint32_t& vertices) {
   std::vector<std::uint32_t> out(cage.position_indices.size());
   std::unordered_map<std::uint64_t, std::uint32_t> known;
-  for (size_t i = 0; i < out.size(); ++i) {
-    const int uv = cage.uv_indices.empty() ? -1 : cage.uv_indices[i];
-    const std::uint64_t key = std::uint64_t(cage.position_indices[i]) << 32 | std::uint32_t(uv);
-    out[i] = known.try_emplace(key, std::uint32_t(known.size())).first->second;
-  }
+  size_t i = 0;
+  for (size_t face = 0; face < shown.size(); ++face)
+    for (const size_t end = i + size_t(cage.face_sizes[face]); i < end; ++i) {
+      if (!shown[face]) continue;
+      const int uv = cage.uv_indices.empty() ? -1 : cage.uv_indices[i];
+      const std::uint64_t key = std::uint64_t(cage.position_indices[i]) << 32 | std::uint32_t(uv);
+      out[i] = known.try_emplace(key, std::uint32_t(known.size())).first->second;
+    }
   vertices = std::uint32_t(known.size());
   return out;
 }
@@ -50,22 +54,19 @@ void add_face(const ControlMesh& cage, const ControlPoints& points, const std::v
 Mesh unrefined_mesh(const ControlMesh& cage) {
   Mesh mesh;
   const ControlPoints points = control_points(cage);
-  std::uint32_t count = 0;
-  const std::vector<std::uint32_t> vertices = vertices_of_corners(cage, count);
-  VertexValues values(mesh, count);
-  std::vector<bool> hole(cage.face_sizes.size(), false);
-  for (const int face : cage.holes) hole[size_t(face)] = true;
+  std::vector<bool> shown(cage.face_sizes.size(), true);
+  for (const int face : cage.holes) shown[size_t(face)] = false;
   // A mesh of nothing but holes cannot be shown: then they are filled.
-  const bool all_holes = std::find(hole.begin(), hole.end(), false) == hole.end();
+  if (std::find(shown.begin(), shown.end(), true) == shown.end()) shown.assign(shown.size(), true);
+  std::uint32_t count = 0;
+  const std::vector<std::uint32_t> vertices = vertices_of_corners(cage, shown, count);
+  VertexValues values(mesh, count);
   size_t begin = 0;
-  for (size_t face = 0; face < hole.size(); ++face) {
+  for (size_t face = 0; face < shown.size(); ++face) {
     const size_t size = size_t(cage.face_sizes[face]);
-    if (!hole[face] || all_holes) add_face(cage, points, vertices, begin, size, values, mesh);
+    if (shown[face]) add_face(cage, points, vertices, begin, size, values, mesh);
     begin += size;
   }
-  // Vertices of holes alone were never set.
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (std::isnan(mesh.positions[i].x)) mesh.positions[i] = Vec3(0, 0, 0);
   values.finish(points, 1);
   return mesh;
 }

@@ -19,6 +19,7 @@
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
+#include "mesh/weld.h"
 #include "render/exposure.h"
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
@@ -95,9 +96,12 @@ void check_extent(const std::string& name, const Mesh& mesh, std::vector<std::st
         fmt::format("{}: none of its {} faces has an area: nothing of it can be seen", name, mesh.quads.size()),
         "its corners lie in one point or on one line; export it anew");
   const Vec3 size = mesh.bounds_max - mesh.bounds_min;
+  // As its author placed it: that is where its positions were rounded.
+  const Vec3d origin = mesh.placement.origin / mesh.placement.unit;
   float farthest = 0;
   for (int k = 0; k < 3; ++k)
-    farthest = std::max({farthest, std::abs(mesh.bounds_min[k]), std::abs(mesh.bounds_max[k])});
+    farthest = std::max({farthest, float(std::abs(origin[k] + double(mesh.bounds_min[k]))),
+                         float(std::abs(origin[k] + double(mesh.bounds_max[k])))});
   // Positions are floats of 24 bits: folds are smooth while the object spans some ten thousand of their steps.
   constexpr float far_away = 1000;
   if (farthest > far_away * size.length())
@@ -109,9 +113,15 @@ void check_extent(const std::string& name, const Mesh& mesh, std::vector<std::st
 
 Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   const double start = now();
-  const ControlMesh cage = read_cage(settings.mesh);
+  ControlMesh cage = read_cage(settings.mesh);
+  if (settings.weld) {
+    const Touching touching = weld_borders(cage);
+    if (touching.edges == 0)
+      report.warnings.push_back(fmt::format("{}: no borders coincide: there is nothing to weld", settings.mesh));
+  }
   report.mesh_hash = hash_mesh(cage);
   report.cage_faces = std::int64_t(cage.face_sizes.size());
+  settle_placement(cage);
   Cloth cloth;
   // The cage encloses the surface closely enough to choose the level by; the framing is then made exact.
   const Camera rough = frame_points(cage.positions, settings.camera, settings.width, settings.height);

@@ -61,7 +61,7 @@ PlannedEffect plan_lens(const Scene& scene, const EffectSwitches& switches) {
   if (blur < visible_pixels && scene.backdrop != Backdrop::environment && !scene.ground)
     rule_out(planned, switches,
              fmt::format("less than half of one; it is {:.3g} units large, whose size --metres-per-unit says",
-                         2 * extent_of(scene).radius));
+                         2 * extent_of(scene).radius * scene.mesh->placement.unit));
   return planned;
 }
 

@@ -49,7 +49,9 @@ Ground compile_ground(const GroundSettings& settings, const Mesh& mesh, const Ca
   const float radius = std::max({std::hypot(extent.x, extent.z) / 2, extent.y / 2, 1e-20f});
   // A hair lower than the cloth, which may lie flat on it: by what no eye sees and floats still tell apart.
   const float far_out = std::max(std::abs(mesh.bounds_min.y), std::abs(mesh.bounds_max.y));
-  g.height = settings.height.value_or(mesh.bounds_min.y - std::max(2e-4f * radius, 4e-7f * far_out));
+  const Placement& placement = mesh.placement;
+  g.height = settings.height ? placement.held_length(double(*settings.height) - placement.origin.y)
+                             : mesh.bounds_min.y - std::max(2e-4f * radius, 4e-7f * far_out);
   g.fade_from = fades_from * radius;
   g.fade_to = fades_to * radius;
   const float level = std::hypot(camera.forward.x, camera.forward.z);

@@ -17,9 +17,10 @@ Lens compile_lens(const LensSettings& settings, const Mesh& mesh, const RayTrace
   constexpr float half_sensor = 0.018f;  // metres
   const float focal_length = half_sensor / std::max(camera.tan_x, camera.tan_y);
   Lens lens;
-  lens.radius = focal_length / settings.f_stop / 2 / settings.metres_per_unit;
+  const float metres_per_unit = float(double(settings.metres_per_unit) * mesh.placement.unit);
+  lens.radius = focal_length / settings.f_stop / 2 / metres_per_unit;
   lens.blades = settings.blades;
-  lens.focus = settings.focus ? *settings.focus / settings.metres_per_unit : focus_distance(mesh, rays, camera);
+  lens.focus = settings.focus ? *settings.focus / metres_per_unit : focus_distance(mesh, rays, camera);
   if (!(lens.focus > 0) || !std::isfinite(lens.focus))
     throw InputError(
         fmt::format("the focus is at {} units along the view, expected in front of the camera", lens.focus),

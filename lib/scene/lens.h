@@ -13,10 +13,10 @@ struct LensSettings {
   float f_stop = 2.8f;         ///< focal length over diameter, 0.1 to 1000
   std::optional<float> focus;  ///< metres along the view; empty: see focus_distance
   int blades = 0;              ///< of the aperture, 3 to 32; 0: round
-  float metres_per_unit = 1;   ///< of the mesh
+  float metres_per_unit = 1;   ///< of the scene, as the mesh's author has it
 };
 
-/// Thin lens in scene units. What lies at `focus` from the camera, measured along its view, is sharp.
+/// Thin lens in the units that the mesh is held in. What lies at `focus` from the camera, measured along its view, is sharp.
 struct Lens {
   float radius = 0, focus = 1;
   int blades = 0;  ///< 0: round

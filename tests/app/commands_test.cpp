@@ -208,4 +208,34 @@ TEST(Check, TellsLooksMeshesAndMapsApartAndWhatIsWrong) {
   EXPECT_TRUE(is_json(run_sateen({"check", "silk_shot", "bad.json", "--json"}, {folder.path}).out));
 }
 
+TEST(Check, TellsOfAMeshWhatItsCountsCountAndWhatARenderLeavesOut) {
+  const Folder folder;
+  write_text(folder / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n");
+  write_text(folder / "panels.obj",
+             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 1\nv 2 1 1\nv 1 1 0\n"
+             "usemtl shell\x1b[31m\nf 1 2 3 4\nusemtl lining\nf 5 6 7 8\n");
+  write_text(folder / "book.obj",
+             "v 0 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv -1 0 0\nv -1 1 0\nv 0 0 1\nv 0 1 1\n"
+             "f 1 3 4 2\nf 1 5 6 2\nf 1 7 8 2\n");
+  const auto out = [&](const std::vector<std::string>& words) {
+    const Finished run = run_sateen(words, {folder.path});
+    EXPECT_EQ(run.code, 0);
+    return run.out;
+  };
+  EXPECT_NE(
+      out({"check", "triangle.obj"}).find("  cage of 3 vertices (1 more that no face uses), 1 face: 1 triangle\n"),
+      std::string::npos);
+  const std::string panels = out({"check", "panels.obj"});
+  for (const char* line : {"  cage of 8 vertices, 2 faces: 2 quads\n",
+                           "  note: its 2 pieces touch along 1 edge but are not joined: a crease shows there; weld "
+                           "them on export, or with "
+                           "--weld\n",
+                           "its 2 materials (shell?[31m, lining) are all rendered with one look\n"})
+    EXPECT_NE(panels.find(line), std::string::npos) << line << "\n" << panels;
+  const std::string welded = out({"check", "--weld", "panels.obj"});
+  EXPECT_NE(welded.find("  welded along 1 edge, 2 vertices fewer\n"), std::string::npos) << welded;
+  EXPECT_EQ(welded.find("not joined"), std::string::npos) << welded;
+  EXPECT_NE(out({"check", "book.obj"}).find("1 edge where more than two faces meet"), std::string::npos);
+}
+
 }  // namespace sateen_test

@@ -118,7 +118,7 @@ TEST(Obj, RefusesAFileWithoutFaces) {
   EXPECT_EQ(error_of(""), none);
   EXPECT_EQ(error_of(square), none);
   EXPECT_EQ(error_of(square + "f 1 1 2\n"),
-            "error: a.obj: no face is left after dropping those that use a vertex twice");
+            "error: a.obj: no face is left after dropping those that meet a vertex twice and have no area");
 }
 
 TEST(Obj, ReportsAllErrorsAtOnceButNoMoreThanTwentyInFull) {
@@ -153,15 +153,17 @@ TEST(Obj, RefusesALineAboveOneMebibyte) {
 TEST(Obj, DropsRepeatedVerticesAndCountsThem) {
   const ControlMesh m = parse_obj(square + "f 1 2 3 4\nf 1 2 2 3\nf 1 1 1\nf 1 2 1 3\n", "a.obj");
   EXPECT_EQ(m.face_sizes, (std::vector<int>{4, 3}));
-  ASSERT_EQ(m.warnings.size(), 1u);
-  EXPECT_EQ(m.warnings[0], "a.obj:6: 3 faces use a vertex twice: the repetition or the face was dropped");
+  ASSERT_EQ(m.warnings.size(), 2u);
+  EXPECT_EQ(m.warnings[0], "a.obj:6: 1 face repeats a corner: the repetition was dropped");
+  EXPECT_EQ(m.warnings[1],
+            "a.obj:7: 2 faces meet a vertex twice and cross themselves or have no area: they were dropped");
 }
 
 TEST(Obj, TakesTheUvsOfAFaceWhoseUvsAreNotFinite) {
   const ControlMesh m = parse_obj(square + "vt 0 0\nvt nan 0\nvt 1 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/1\n", "a.obj");
   EXPECT_EQ(m.uv_indices, (std::vector<int>{-1, -1, -1, 0, 2, 0}));
   ASSERT_EQ(m.warnings.size(), 1u);
-  EXPECT_EQ(m.warnings[0].substr(0, 42), "a.obj:6: 1 texture coordinates are not fin");
+  EXPECT_EQ(m.warnings[0].substr(0, 43), "a.obj:6: 1 texture coordinate is not finite");
 }
 
 TEST(Obj, TakesTheUvsOfAFaceThatHasThemAtSomeCornersOnly) {

@@ -23,7 +23,9 @@ TEST(SharedMeshes, ParseAndSubdivideAtAllLevelsWithoutAMadeUpWarpWhereTheyHaveUv
       SCOPED_TRACE(entry.path().string() + " level " + std::to_string(level));
       const Mesh mesh = subdivide(cage, level);
       expect_sound(mesh);
-      EXPECT_TRUE(mesh.warnings.empty());
+      EXPECT_TRUE(mesh.refined);
+      for (const std::string& warning : mesh.warnings)  // a few of them are no surface in places
+        EXPECT_NE(warning.find("where several surfaces meet"), std::string::npos) << warning;
       EXPECT_EQ(mesh.fallback_warps, cage.uv_indices.empty() ? std::int64_t(mesh.positions.size()) : 0);
     }
   }

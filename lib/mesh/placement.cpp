@@ -1,0 +1,47 @@
+#include "mesh/placement.h"
+
+#include <cmath>
+#include <vector>
+
+#include "mesh/control_mesh.h"
+
+namespace sateen {
+
+namespace {
+constexpr double least_size = 0x1p-7, largest_size = 0x1p10;  // as people model: a button to a stage in centimetres
+constexpr double far_from_origin = 64;                        // sizes: what floats lose by then is a step of 2^-17
+
+struct Box {
+  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+};
+}  // namespace
+
+void settle_placement(ControlMesh& cage) {
+  if (cage.position_indices.empty()) return;
+  std::vector<bool> used(cage.positions.size(), false);
+  Box box;
+  for (const int i : cage.position_indices) {
+    used[size_t(i)] = true;
+    const Vec3d p(cage.positions[size_t(i)]);
+    for (int k = 0; k < 3; ++k) {
+      box.low[k] = std::min(box.low[k], p[k]);
+      box.high[k] = std::max(box.high[k], p[k]);
+    }
+  }
+  const Vec3d middle = (box.low + box.high) * 0.5, extent = box.high - box.low;
+  for (size_t i = 0; i < used.size(); ++i)
+    if (!used[i]) cage.positions[i] = Vec3(middle);
+  const double size = std::max({extent.x, extent.y, extent.z});
+  if (!(size > 0)) return;
+  Placement placement;
+  if (size < least_size || size > largest_size) placement.unit = std::exp2(std::floor(std::log2(size)));
+  if (std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}) > far_from_origin * size)
+    placement.origin = Vec3d(Vec3(middle));
+  if (placement.is_identity()) return;
+  // In double, so that what lies far out loses nothing before it is near.
+  for (Vec3& p : cage.positions) p = Vec3((Vec3d(p) - placement.origin) / placement.unit);
+  cage.placement.origin += placement.origin * cage.placement.unit;
+  cage.placement.unit *= placement.unit;
+}
+
+}  // namespace sateen
