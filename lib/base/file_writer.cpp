@@ -19,8 +19,7 @@ constexpr std::size_t buffer_bytes = 1u << 20;
 }  // namespace
 
 FileWriter::FileWriter(const std::filesystem::path& path) {
-  do descriptor_ = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  while (descriptor_ < 0 && errno == EINTR);
+  descriptor_ = uninterrupted([&] { return ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC); });
   if (descriptor_ < 0) fail(errno);
 }
 
@@ -48,9 +47,9 @@ void FileWriter::seek(std::uint64_t position) {
 void FileWriter::flush() {
   std::size_t done = 0;
   while (done < buffer_.size()) {
-    const ssize_t wrote =
-        ::pwrite(descriptor_, buffer_.data() + done, buffer_.size() - done, off_t(buffer_start_ + done));
-    if (wrote < 0 && errno == EINTR) continue;
+    const ssize_t wrote = uninterrupted([&] {
+      return ::pwrite(descriptor_, buffer_.data() + done, buffer_.size() - done, off_t(buffer_start_ + done));
+    });
     if (wrote <= 0) fail(wrote < 0 ? errno : EIO);
     done += std::size_t(wrote);
   }

@@ -1,9 +1,18 @@
 #pragma once
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
 
 namespace sateen {
+
+/// Calls again what a signal interrupted, a hundred times at most: what never gets through is to fail, not to hang.
+template <class Call>
+auto uninterrupted(const Call& call) {
+  auto result = call();
+  for (int tries = 0; result < 0 && errno == EINTR && tries < 100; ++tries) result = call();
+  return result;
+}
 
 /// Bytes into a file that is there already, from its beginning. Every failed write and close throws OperationError
 /// with the system's words: standard streams lose what their last flush says.

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <mutex>
 
 #include "base/error.h"
@@ -20,14 +21,6 @@ namespace sateen {
 namespace fs = std::filesystem;
 
 namespace {
-
-template <class Call>
-int repeated(const Call& call) {
-  int result = 0;
-  do result = call();
-  while (result < 0 && errno == EINTR);
-  return result;
-}
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
@@ -104,7 +97,7 @@ Temporary::Temporary(const fs::path& target) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const fs::path name = folder_of(target) / fmt::format("{}{}-{}{}", beginning_of(target), ::getpid(), attempt,
                                                           target.extension().string());
-    descriptor_ = repeated([&] { return ::open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666); });
+    descriptor_ = uninterrupted([&] { return ::open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666); });
     if (descriptor_ >= 0) {
       path_ = name;
       ::flock(descriptor_, LOCK_EX | LOCK_NB);  // where there are no locks nothing is swept either
@@ -125,22 +118,22 @@ void Temporary::keep_mode_of(const struct stat& old) const {
 
 void Temporary::sync() const {
   // EINVAL: some file systems have no fsync.
-  if (repeated([&] { return ::fsync(descriptor_); }) != 0 && errno != EINVAL)
+  if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0 && errno != EINVAL)
     throw OperationError(fmt::format("cannot flush to disk: {}", std::strerror(errno)));
 }
 
 void Temporary::rename_to(const fs::path& target) {
-  if (repeated([&] { return ::rename(path_.c_str(), target.c_str()); }) != 0)
+  if (uninterrupted([&] { return ::rename(path_.c_str(), target.c_str()); }) != 0)
     throw OperationError(fmt::format("cannot be given its name: {}", std::strerror(errno)));
   path_.clear();
 }
 
 void sync_folder(const fs::path& folder) {
-  const int descriptor = repeated([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  const int descriptor = uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   // A folder may be one to write to and not to read.
   if (descriptor < 0 && errno == EACCES) return;
   if (descriptor < 0) throw OperationError(std::strerror(errno));
-  const int result = repeated([&] { return ::fsync(descriptor); }), error = errno;
+  const int result = uninterrupted([&] { return ::fsync(descriptor); }), error = errno;
   ::close(descriptor);
   if (result != 0 && error != EINVAL) throw OperationError(std::strerror(error));
 }
@@ -175,10 +168,17 @@ void write_file_whole(const fs::path& path, const std::function<void(const fs::p
 }
 
 void write_text_whole(const fs::path& path, std::string_view text) {
-  write_file_whole(path, [&](const fs::path& temporary) {
+  const auto write = [&](const fs::path& temporary) {
     FileWriter writer(temporary);
     writer.write(text.data(), text.size());
     writer.close();
+  };
+  write_file_whole(path, write, [&](const fs::path& temporary) {
+    std::ifstream in(temporary, std::ios::binary);
+    std::string back(text.size() + 1, '\0');
+    in.read(back.data(), std::streamsize(back.size()));
+    back.resize(size_t(in.gcount()));
+    if (back != text) throw OperationError("the text read back differs from the one written");
   });
 }
 

@@ -144,7 +144,8 @@ void exchange(Stream& s, C& c) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
-  write_file_whole(path, [&](const std::filesystem::path& temporary) {
+  std::uint64_t meant = 0;
+  const auto write = [&](const std::filesystem::path& temporary) {
     FileWriter out(temporary);
     Writer writer(out);
     writer.value(magic);
@@ -155,9 +156,17 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
       writer.value(fact.shown);
     }
     exchange(writer, c);
-    const std::uint64_t hash = writer.hash();
-    writer.value(hash);
+    writer.value(std::uint64_t(writer.hash()));
+    meant = writer.hash();
     out.close();
+  };
+  write_file_whole(path, write, [&](const std::filesystem::path& temporary) {
+    std::ifstream in(temporary, std::ios::binary);
+    Hash back;
+    std::vector<char> block(1 << 20);
+    while (in.read(block.data(), std::streamsize(block.size())), in.gcount() > 0)
+      back.add_bytes(block.data(), size_t(in.gcount()));
+    if (back.value != meant) throw OperationError("what is read back differs from what was written");
   });
 }
 

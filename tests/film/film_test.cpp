@@ -240,8 +240,8 @@ Film random_film() {
     for (int k = 0; k < n; ++k) {
       Color total(0);
       for (Color* part : {&layer.surface[0], &layer.surface[1], &layer.volume[0], &layer.volume[1],
-                          &layer.indirect.bounce[0], &layer.indirect.bounce[1], &layer.indirect.bounce[2], &layer.indirect.bounce[3],
-                          &layer.through_gaps, &layer.backdrop}) {
+                          &layer.indirect.bounce[0], &layer.indirect.bounce[1], &layer.indirect.bounce[2],
+                          &layer.indirect.bounce[3], &layer.through_gaps, &layer.backdrop}) {
         const Color c = color();
         *part += c;
         total += c;
@@ -303,6 +303,28 @@ TEST(Layers, GeometryIsAMeanOverTheSamplesThatMetCloth) {
       const Color variance = pooled[i];
       for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(named(all, "error").image.at(x, y)[c], std::sqrt(variance[c]));
     }
+}
+
+TEST(Layers, BandsOfRowsHaveTheBitsOfTheWhole) {
+  const Film film = random_film();
+  const std::vector<ImageLayer> whole = develop_layers(film);
+  for (const int step : {1, 2, 3, film.height}) {
+    for (int y0 = 0; y0 < film.height; y0 += step) {
+      const int y1 = std::min(y0 + step, film.height);
+      const std::vector<ImageLayer> band = develop_layers(film, y0, y1, [](const std::string&) { return true; });
+      ASSERT_EQ(band.size(), whole.size());
+      for (size_t l = 0; l < band.size(); ++l) {
+        ASSERT_EQ(band[l].image.height, y1 - y0);
+        const Image& all = whole[l].image;
+        const std::vector<float> meant(all.at(0, y0), all.at(0, y0) + band[l].image.pixels.size());
+        EXPECT_EQ(band[l].image.pixels, meant) << whole[l].name << " from row " << y0;
+      }
+    }
+  }
+  const auto only_p = [](const std::string& name) { return name == "P"; };
+  const std::vector<ImageLayer> chosen = develop_layers(film, 0, 1, only_p);
+  ASSERT_EQ(chosen.size(), 2u);
+  EXPECT_EQ(chosen[1].name, "P");
 }
 
 TEST(Layers, BeautyComesFirstWithAlphaAndAFilmWithoutLayersHasOnlyErrorAndSamplesBeside) {
