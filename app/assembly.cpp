@@ -33,6 +33,7 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
   job.display = flags.display;
   job.layers = flags.layer_list;
   job.references = flags.stage.references;
+  job.timings = flags.timings;
   job.effects = effects_text(scene, job.render.light);
   job.color_config = colors.description();
   job.working_space = colors.working_space();

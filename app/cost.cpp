@@ -7,7 +7,10 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
+#include "look/read.h"
+#include "outputs.h"
 #include "picture_flags.h"
+#include "scene/environment_file.h"
 #include "signals.h"
 #include "study/cost_report.h"
 #include "work_progress.h"
@@ -37,6 +40,16 @@ std::string folder_of(const PictureFlags& flags) {
                      "name it without an extension, such as out/cost");
   return flags.outputs[0];
 }
+/// Nothing of the price list may take the place of what it is made of.
+void check_cost_inputs(const PictureFlags& flags, const std::string& folder) {
+  const Look look = read_look(flags.scene.look, flags.scene.look_overrides);
+  if (!look.back.empty()) read_back(look);
+  if (!look.pattern_look.empty()) read_pattern(look);
+  std::vector<NamedFile> inputs = config_input(flags.ocio);
+  inputs.push_back({"mesh", flags.scene.mesh});
+  inputs.push_back({"map", find_environment(flags.scene.environment).string()});
+  check_report_folder(folder, {"index.html", "cost.csv", "cost.json", "cost.txt"}, inputs);
+}
 }  // namespace
 
 int run_cost(const std::vector<std::string>& words) {
@@ -59,6 +72,8 @@ int run_cost(const std::vector<std::string>& words) {
         fmt::format("--spp is {}, expected {} or more: a curve wants points", flags.render.stop.spp, fewest_spp));
   const std::string folder = folder_of(flags);
 
+  check_cost_inputs(flags, folder);
+
   const ColorManager colors(flags.ocio, flags.working);
   CostSettings settings;
   settings.scene = flags.scene;
@@ -78,11 +93,11 @@ int run_cost(const std::vector<std::string>& words) {
       &interrupted);
   progress.finish();
   const std::string command_line = "sateen cost " + shell_line(words);
-  const std::vector<std::string> files = write_cost(folder, result, SATEEN_VERSION, command_line);
   if (voice.json)
     print_result(cost_json(result, SATEEN_VERSION, command_line));
   else
     print_note(cost_text(result));
+  const std::vector<std::string> files = write_cost(folder, result, SATEEN_VERSION, command_line);
   print_note(fmt::format("wrote {} files into {}; open {}", files.size(), folder,
                          (std::filesystem::path(folder) / "index.html").string()));
   return result.interrupted ? 128 + signal_received() : int(done);

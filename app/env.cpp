@@ -9,6 +9,7 @@
 #include "environment_text.h"
 #include "exit_code.h"
 #include "look/json_writer.h"
+#include "outputs.h"
 #include "render/picture.h"
 #include "scene/environment_file.h"
 #include "scene/environment_make.h"
@@ -38,6 +39,7 @@ int env_make(const std::vector<std::string>& words) {
   if (!is_exr(output)) throw InputError(fmt::format("--output is {}, expected a file that ends in .exr", output));
   check_picture_path(output);
   MapDescription description = read_map_description(names[0]);
+  check_not_read({{"--output", output}});
   if (width > 0) description.width = width, description.height = height;
   const long long beyond = write_made_environment(output, description);
   if (beyond > 0)

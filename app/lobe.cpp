@@ -11,6 +11,7 @@
 #include "look/json_writer.h"
 #include "look/read.h"
 #include "measured_look.h"
+#include "outputs.h"
 #include "render/picture.h"
 
 namespace sateen::app {
@@ -64,6 +65,9 @@ int run_lobe(const std::vector<std::string>& words) {
     throw InputError("a drawing is not written as EXR", "use .png or .svg");
 
   const Look look = read_look(names[0], overrides);
+  std::vector<NamedFile> inputs = config_input(ocio);
+  if (!pairs.empty()) inputs.push_back({"list of pairs", pairs});
+  check_not_read({{"--output", output}}, inputs);
   if (pairs.empty()) {
     const MeasuredLook measured = measure_look(look, false, ocio, working);
     print_table(measured);

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
+#include "outputs.h"
 #include "picture_report.h"
 #include "render.h"
 #include "render/checkpoint.h"
@@ -32,8 +33,12 @@ int run_merge(const std::vector<std::string>& words) {
   if (!command.parse(words)) return done;
   if (outputs.empty() && checkpoint.empty())
     throw InputError("merge has nothing to write", "add -o FILE.exr or --checkpoint FILE");
-  for (const std::string& output : outputs) check_picture_path(output);
-  if (!checkpoint.empty()) check_can_write(checkpoint);
+  for (const std::string& output : outputs) check_picture_path(output, false);
+  const std::vector<NamedFile> to_write = named_outputs(outputs, {{"--checkpoint", checkpoint}});
+  std::vector<NamedFile> to_read;
+  for (const std::string& input : inputs) to_read.push_back({"checkpoint", input});
+  check_not_read(to_write, to_read);
+  for (const NamedFile& file : to_write) check_can_write(file.path);
 
   const Checkpoint sum = merge_checkpoints({inputs.begin(), inputs.end()});
   RenderFlags flags;
@@ -41,7 +46,8 @@ int run_merge(const std::vector<std::string>& words) {
   PictureFlags& p = flags.picture;
   p.outputs = outputs;
   keep_effects(p, sum.facts);
-  auto [colors, report, scene, job] = assemble_picture(p, "merge " + shell_line(words), false);
+  auto [colors, report, scene, job] = assemble_picture(p, recorded_line("merge", words), false);
+  check_not_read(to_write, config_input(p.ocio));
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;
   job.first_sample = int(sum.film.first_sample);
@@ -60,20 +66,22 @@ int run_merge(const std::vector<std::string>& words) {
       job.display, job.exposure_ev, picture_attributes(job, report, result)};
   const std::optional<References> references = references_of(p, job, scene, colors);
   if (references) content.overlay = &references->overlay;
-  const std::vector<WrittenPicture> written = write_pictures(outputs, content, colors, job.render.threads);
-  if (!checkpoint.empty()) write_checkpoint(checkpoint, sum);
-  for (const WrittenPicture& file : written) print_written(job, file);
+  Endings endings;
+  if (!checkpoint.empty()) endings.attempt([&] { write_checkpoint(checkpoint, sum); });
+  const WrittenPictures pictures = write_pictures(outputs, content, colors, job.render.threads);
+  endings.tell(job, pictures);
   print_result_line(job, result);
   if (references) print_references(*references);
+  const int code = endings.code(done);
   if (voice.json) {
     JsonWriter w;
     w.open_object();
     write_job(w, p, job, report);
-    write_result(w, result, written);
+    write_result(w, result, pictures);
     if (references) write_references(w, *references);
-    print_result(w.member("exit_code", int(done)).close().text());
+    print_result(w.member("exit_code", code).close().text());
   }
-  return done;
+  return code;
 }
 
 }  // namespace sateen::app

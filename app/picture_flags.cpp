@@ -1,7 +1,6 @@
 #include "picture_flags.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -147,6 +146,7 @@ void add_output(Command& c, PictureFlags& f) {
   c.text("--aov", "LIST", f.layers,
          fmt::format("layers of an EXR beside the beauty: all, none, or of {}", fmt::join(layer_names(), ", ")));
   c.text("--stats", "FILE", f.stats, "writes what was done and how long it took, as JSON");
+  c.flag("--timings", f.timings, "times go into the pictures, too: then no two files have the same bytes");
   c.flag("--json", voice.json, "prints the same JSON, and nothing else, on standard output");
   c.choice("--progress", f.progress_name, {"auto", "bar", "alf", "openjd", "json", "none"},
            "how progress is told (default: auto, a bar on a terminal and lines elsewhere)");
@@ -217,19 +217,6 @@ void settle_picture_flags(const Command& command, PictureFlags& f, int samples) 
   if (crop.x1 > f.scene.width || crop.y1 > f.scene.height)
     throw InputError(fmt::format("--crop ends at {} {}, expected at most {} {}, the size of the picture", crop.x1,
                                  crop.y1, f.scene.width, f.scene.height));
-}
-
-void check_memory(const PictureFlags& f) {
-  const bool any_exr = f.outputs.empty() || std::any_of(f.outputs.begin(), f.outputs.end(),
-                                                        [](const std::string& output) { return is_exr(output); });
-  const double layers = any_exr && !f.layer_list.empty() ? double(sizeof(LayerPixel)) : 0;
-  const double pixels = double(f.scene.width) * f.scene.height, gigabyte = 1e9;
-  const double needed = pixels * (double(sizeof(FilmPixel)) + layers);
-  const double there = double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
-  if (there > 0 && needed > there)
-    throw InputError(fmt::format("--res {} {} takes {:.0f} GB while it is rendered, and this machine has {:.0f}",
-                                 f.scene.width, f.scene.height, needed / gigabyte, there / gigabyte),
-                     layers > 0 ? "make it smaller; --aov none takes less than half" : "make it smaller");
 }
 
 std::vector<std::string> read_layers(const std::string& list) {
@@ -303,6 +290,31 @@ std::string shell_line(const std::vector<std::string>& words) {
     line += (line.empty() ? "" : " ") + (plain ? word : "'" + quoted + "'");
   }
   return line;
+}
+
+std::string recorded_line(const std::string& subcommand, const std::vector<std::string>& words) {
+  static const std::vector<std::string> with_value{
+      "-o",        "--output",   "--stats", "--checkpoint", "--checkpoint-every", "--resume", "-t",
+      "--threads", "--progress", "--sheet", "--frames"};
+  static const std::vector<std::string> alone{"--json", "-q",       "--quiet", "-v",        "--verbose",
+                                              "--redo", "--labels", "--bill",  "--dry-run", "--timings"};
+  const auto among = [](const std::vector<std::string>& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  };
+  std::vector<std::string> kept{subcommand};
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (among(with_value, word)) {
+      ++i;
+      continue;
+    }
+    const bool is_long = word.starts_with("--");
+    if (is_long && among(with_value, word.substr(0, word.find('=')))) continue;
+    if (!is_long && word.size() > 2 && among(with_value, word.substr(0, 2))) continue;  // -oNAME
+    if (among(alone, word) || (word.starts_with("--no-") && among(alone, "--" + word.substr(5)))) continue;
+    kept.push_back(word);
+  }
+  return shell_line(kept);
 }
 
 }  // namespace sateen::app

@@ -22,7 +22,7 @@ struct PictureFlags {
   std::string strategy = strategy_name(Strategy::automatic), effects = "auto", layers = "all";
   std::string progress_name = "auto";
   bool verify_plan = false, bill = false, strict = false, adaptive = false, dry_run = false, quiet = false,
-       verbose = false;
+       verbose = false, timings = false;
   int seed = 1;
 
   EffectSwitches switches;                        ///< settled from `effects` and --bounces
@@ -44,9 +44,6 @@ inline constexpr int default_samples = 24;
 /// voice. `samples` is what is rendered when no stop rule was given.
 void settle_picture_flags(const Command& command, PictureFlags& flags, int samples = default_samples);
 
-/// InputError where the sums of the picture's pixels do not fit into this machine's memory.
-void check_memory(const PictureFlags& flags);
-
 /// Layers that `--aov` names. "all" and "none" too.
 std::vector<std::string> read_layers(const std::string& list);
 
@@ -61,5 +58,10 @@ std::vector<std::string> split(const std::string& text, char separator);
 
 /// The words of a command line, quoted for a shell where needed.
 std::string shell_line(const std::vector<std::string>& words);
+
+/// The command line as pictures hold it: without what decides nothing of them, names of outputs, threads, progress,
+/// what was gone on from, so that the same picture has the same bytes whatever it is called and however it came
+/// about.
+std::string recorded_line(const std::string& subcommand, const std::vector<std::string>& words);
 
 }  // namespace sateen::app

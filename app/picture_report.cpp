@@ -209,7 +209,7 @@ int report_dry_run(const PictureFlags& flags, const PictureJob& job, const Scene
   return 0;
 }
 
-void write_result(JsonWriter& w, const RenderResult& result, const std::vector<WrittenPicture>& written) {
+void write_result(JsonWriter& w, const RenderResult& result, const WrittenPictures& pictures) {
   w.member("spp", result.samples).member("stopped_by", stop_reason_text(result.reason)).key("error");
   if (result.error.known)
     w.open_object()
@@ -237,12 +237,16 @@ void write_result(JsonWriter& w, const RenderResult& result, const std::vector<W
   w.key("rays").open_object().member("camera", result.rays.camera).member("shadow", result.rays.shadow);
   w.member("bounce", result.rays.bounce).close().member("non_finite", result.rays.non_finite);
   w.key("files").open_list();
-  for (const WrittenPicture& file : written)
+  for (const WrittenPicture& file : pictures.written)
     w.open_object()
         .member("path", file.path.string())
         .member("bytes", file.bytes)
         .member("layers", file.layers)
         .close();
+  w.close();
+  if (pictures.failures.empty()) return;
+  w.key("not_written").open_list();
+  for (const std::string& failure : pictures.failures) w.value(failure);
   w.close();
 }
 

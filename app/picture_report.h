@@ -25,7 +25,7 @@ int report_dry_run(const PictureFlags& flags, const PictureJob& job, const Scene
 
 /// Members of an open JSON object: what was asked for and found out; how rendering went.
 void write_job(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, const SceneReport& report);
-void write_result(JsonWriter& w, const RenderResult& result, const std::vector<WrittenPicture>& written);
+void write_result(JsonWriter& w, const RenderResult& result, const WrittenPictures& pictures);
 /// To --stats and, with --json, to standard output.
 void write_stats(const PictureFlags& flags, const std::string& json);
 

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
+#include "outputs.h"
 #include "picture_report.h"
 #include "plan_report.h"
 #include "render/candidates.h"
@@ -30,7 +31,8 @@ int run_plan(const std::vector<std::string>& words) {
   settle_picture_flags(command, flags);
   for (const std::string& output : flags.outputs) check_picture_path(output, false);
   if (!flags.stats.empty()) check_can_write(flags.stats);
-  const Assembly assembly = assemble_picture(flags, "plan " + shell_line(words));
+  const Assembly assembly = assemble_picture(flags, recorded_line("plan", words));
+  check_not_read({{"--stats", flags.stats}}, config_input(flags.ocio));
   const SceneReport& report = assembly.report;
   const PictureJob& job = assembly.job;
   for (const std::string& warning : report.warnings) print_warning(warning);

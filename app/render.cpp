@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <set>
 
 #include "assembly.h"
+#include "base/file_identity.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
+#include "memory.h"
+#include "outputs.h"
 #include "picture_report.h"
 #include "plan_report.h"
 #include "render/checkpoint.h"
@@ -20,8 +22,9 @@ namespace sateen::app {
 namespace {
 void describe(Command& c) {
   c.paragraph(
-      "SIGUSR1 writes the pictures so far and rendering goes on. SIGINT and SIGTERM write them and a checkpoint, "
-      "which --resume goes on from.");
+      "SIGUSR1 writes the pictures so far and rendering goes on. SIGINT, SIGTERM and SIGHUP write them and a "
+      "checkpoint, which --resume goes on from. Over a finished picture they do not go, but beside it: "
+      "NAME.partial.exr.");
   c.example("sateen render", "the default satin on the default drape: sateen.png and sateen.exr");
   c.example("sateen render --look emerald_satin --env low_sun -o emerald.png", "another cloth under another light");
   c.example("sateen render -m dress.obj -l black_charmeuse --error 0.02 --time 5m -o dress.exr -o dress.png",
@@ -62,7 +65,7 @@ struct Work {
   Checkpoint state;
   std::optional<References> references = {};
 
-  std::vector<WrittenPicture> write_outputs(const RenderResult& result) const {
+  WrittenPictures write_outputs(const RenderResult& result) const {
     PictureContent content;
     content.film = &state.film;
     content.crop = job.render.crop;
@@ -71,21 +74,27 @@ struct Work {
     content.exposure_ev = job.exposure_ev;
     content.attributes = picture_attributes(job, report, result);
     if (references) content.overlay = &references->overlay;
-    return write_pictures(flags.picture.outputs, content, colors, job.render.threads);
+    const auto& outputs = flags.picture.outputs;
+    const bool partial = result.reason == StopReason::interrupted;
+    return write_pictures(partial ? names_for_partial(outputs) : outputs, content, colors, job.render.threads);
   }
 
+  /// A full disk now must not cost what is rendered: it may have room again at the end.
   void snapshot(const RenderResult& result, bool asked, Progress& progress) const {
-    // A full disk now must not cost what is rendered: it may have room again at the end.
+    std::vector<std::string> failures;
     try {
       if (!flags.checkpoint.empty()) write_checkpoint(flags.checkpoint, state);
-      if (!asked) return;
-      const std::vector<WrittenPicture> written = write_outputs(result);
-      progress.clear_line();
-      for (const WrittenPicture& file : written) print_written(job, file);
     } catch (const OperationError& error) {
-      progress.clear_line();
-      print_warning(error.what());
+      failures.push_back(error.what());
     }
+    if (asked) {
+      progress.clear_line();
+      const WrittenPictures pictures = write_outputs(result);
+      for (const WrittenPicture& file : pictures.written) print_written(job, file);
+      failures.insert(failures.end(), pictures.failures.begin(), pictures.failures.end());
+    }
+    if (!failures.empty()) progress.clear_line();
+    for (const std::string& failure : failures) print_warning(failure);
   }
 };
 
@@ -98,14 +107,19 @@ double seconds_beside_rendering(const PictureFlags& flags, const PictureJob& job
   return seconds_since_start() + 1e-6 * each * job.scene.width * job.scene.height;
 }
 
+/// Whether the film keeps the layers beside the beauty.
+bool keeps_layers(const RenderFlags& f) {
+  const auto& outputs = f.picture.outputs;
+  return !f.picture.layer_list.empty() &&
+         (!f.checkpoint.empty() ||
+          std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return is_exr(o); }));
+}
+
 void start(Work& work) {
   const RenderFlags& f = work.flags;
   Checkpoint& state = work.state;
   if (f.resume.empty()) {
-    const auto& outputs = f.picture.outputs;
-    const bool layers =
-        !f.checkpoint.empty() || std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return is_exr(o); });
-    state.film = Film(work.job.scene.width, work.job.scene.height, layers && !work.job.layers.empty());
+    state.film = Film(work.job.scene.width, work.job.scene.height, keeps_layers(f));
     state.film.first_sample = std::uint32_t(f.first_sample);
     state.facts = sampling_facts(work.job, work.report);
     state.words = work.words;
@@ -116,6 +130,10 @@ void start(Work& work) {
     throw InputError(fmt::format("{} holds no layers, which an EXR wants", f.resume), "add --aov none");
   print_note(fmt::format("{} goes on at {} samples a pixel", f.resume, state.course.samples));
 }
+std::filesystem::path bill_page(const PictureFlags& flags) {
+  return std::filesystem::path(flags.outputs[0]).replace_extension(".bill.html");
+}
+
 /// Bills the effects of the picture that was rendered: into the JSON, and with --bill as a table and a page.
 void make_out_bill(JsonWriter& w, const PictureFlags& flags, const PictureJob& job, const Scene& scene,
                    const ColorManager& colors) {
@@ -128,9 +146,24 @@ void make_out_bill(JsonWriter& w, const PictureFlags& flags, const PictureJob& j
   write_bill(w, bill);
   if (!flags.bill) return;
   if (!voice.json) print_result(table_text(bill_table(bill)));
-  const std::filesystem::path page = std::filesystem::path(flags.outputs[0]).replace_extension(".bill.html");
+  const std::filesystem::path page = bill_page(flags);
   write_bill_page(page, bill, job.command_line);
   print_note(fmt::format("wrote {}", page.string()));
+}
+
+std::vector<NamedFile> files_to_write(const RenderFlags& flags) {
+  std::vector<NamedFile> others{{"--checkpoint", flags.checkpoint}, {"--stats", flags.picture.stats}};
+  if (flags.picture.bill) others.push_back({"--bill", bill_page(flags.picture).string()});
+  return named_outputs(flags.picture.outputs, others);
+}
+
+/// What is read and is none of the scene's files. A checkpoint may go on in the file that it is resumed from: it then
+/// holds all that it held.
+std::vector<NamedFile> inputs_of(const RenderFlags& flags) {
+  std::vector<NamedFile> inputs = config_input(flags.picture.ocio);
+  if (flags.checkpoint.empty() || !same_file(flags.checkpoint, flags.resume))
+    inputs.push_back({"checkpoint", flags.resume});
+  return inputs;
 }
 
 /// A picture goes on with the effects that it began with, even where a tighter error calls for more.
@@ -172,15 +205,10 @@ int run_render(const std::vector<std::string>& words) {
   RenderFlags all;
   if (!read_render_flags(words, all)) return done;
   PictureFlags& flags = all.picture;
-  std::set<std::string> names;
-  for (const std::string& output : flags.outputs) {
-    check_picture_path(output, !flags.dry_run);
-    if (!names.insert(output).second)
-      throw InputError(fmt::format("--output {} is given twice", output), "leave one of them out");
-  }
-  for (const std::string& other : {all.checkpoint, flags.stats})
-    if (!other.empty()) check_can_write(other, !flags.dry_run);
-  if (!flags.dry_run) check_memory(flags);
+  for (const std::string& output : flags.outputs) check_picture_path(output, false);
+  const std::vector<NamedFile> outputs = files_to_write(all);
+  for (const NamedFile& output : outputs) check_can_write(output.path, !flags.dry_run);
+  if (!flags.dry_run) check_film_memory(flags);
   Checkpoint begun;
   if (!all.resume.empty()) {
     begun = read_checkpoint(all.resume);
@@ -192,7 +220,8 @@ int run_render(const std::vector<std::string>& words) {
     keep_effects(flags, begun.facts);
   }
 
-  Assembly assembly = assemble_picture(flags, "render " + shell_line(words));
+  Assembly assembly = assemble_picture(flags, recorded_line("render", words));
+  check_not_read(outputs, inputs_of(all));
   const ColorManager& colors = assembly.colors;
   const SceneReport& report = assembly.report;
   const Scene& scene = assembly.scene;
@@ -201,6 +230,11 @@ int run_render(const std::vector<std::string>& words) {
   if (!all.resume.empty()) warn_of_tighter_plan(job.plan);
   print_scene(flags, job, report);
   if (!report_verdicts(job.plan, job.verdicts)) return failed;
+  if (!flags.dry_run) {
+    const Film& film = begun.film;
+    const bool there = !film.pixels.empty();
+    check_picture_memory(flags, there ? !film.layers.empty() : keeps_layers(all), there);
+  }
   Work work{all, words, job, report, colors, std::move(begun)};
   start(work);
   work.references = references_of(flags, job, scene, colors);
@@ -225,28 +259,31 @@ int run_render(const std::vector<std::string>& words) {
   hooks.snapshot = [&](const RenderResult& result, bool asked) { work.snapshot(result, asked, progress); };
   const RenderResult result = render(scene, job.render, work.state.film, work.state.course, hooks);
 
-  const std::vector<WrittenPicture> written = work.write_outputs(result);
+  // The sums first: of them everything else can be made again.
+  Endings endings;
   const bool stopped = result.reason == StopReason::interrupted;
   std::string checkpoint = all.checkpoint;
   if (stopped && checkpoint.empty()) checkpoint = flags.outputs[0] + ".checkpoint";
-  if (!checkpoint.empty()) write_checkpoint(checkpoint, work.state);
   if (stopped) progress.stopped();
   progress.done();
-
-  for (const WrittenPicture& file : written) print_written(job, file);
+  const bool kept = !checkpoint.empty() && endings.attempt([&] { write_checkpoint(checkpoint, work.state); });
+  const WrittenPictures pictures = work.write_outputs(result);
+  endings.tell(job, pictures);
   print_result_line(job, result);
   if (work.references) print_references(*work.references);
-  if (stopped) print_note(fmt::format("--resume {} goes on from here", shell_line({checkpoint})));
-  const int code = picture_code(flags, result);
+  if (stopped && kept) print_note(fmt::format("--resume {} goes on from here", shell_line({checkpoint})));
   JsonWriter w;
   w.open_object();
   write_job(w, flags, job, report);
-  write_result(w, result, written);
+  write_result(w, result, pictures);
   if (work.references) write_references(w, *work.references);
-  if ((flags.bill || !flags.stats.empty()) && !stopped) make_out_bill(w, flags, job, scene, colors);
-  if (!checkpoint.empty()) w.member("checkpoint", checkpoint);
-  write_stats(flags, w.member("exit_code", code).close().text());
-  return code;
+  if ((flags.bill || !flags.stats.empty()) && !stopped)
+    endings.attempt([&] { make_out_bill(w, flags, job, scene, colors); });
+  if (kept) w.member("checkpoint", checkpoint);
+  const int code = endings.code(picture_code(flags, result));
+  w.member("exit_code", code).close();
+  endings.attempt([&] { write_stats(flags, w.text()); });
+  return endings.code(code);
 }
 
 }  // namespace sateen::app

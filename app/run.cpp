@@ -54,7 +54,7 @@ std::string overview() {
       "  0  done                                    3  a file is missing or unreadable\n"
       "  1  rendering or writing failed             4  stopped before the asked quality\n"
       "  2  wrong use, or a file with wrong content 5  samples that are not finite, with --strict\n"
-      "  130, 143  stopped by a signal; what was rendered so far is written, --resume goes on from it\n\n"
+      "  129, 130, 143  stopped by a signal; what was rendered so far is written, --resume goes on from it\n\n"
       "Environment: SATEEN_PATH (folders with looks/ and envmaps/, separated by colons), SATEEN_HOME (the program's\n"
       "own), OCIO (a colour config), SLURM_CPUS_PER_TASK.\n";
   return text;

@@ -33,10 +33,15 @@ void install_signals() {
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A terminal that closes ends the work as SIGTERM does; under nohup the signal is ignored, and stays so.
+  struct sigaction hangup = {};
+  if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
   action.sa_handler = on_request;
   sigaction(SIGUSR1, &action, nullptr);
-  // A reader that went away must not cost a rendered picture.
+  // A reader that went away and a limit on the size of files must not cost a rendered picture: what is written then
+  // fails with EPIPE or EFBIG, and that is told.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 StopOnSignal::StopOnSignal() {

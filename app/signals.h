@@ -3,8 +3,9 @@
 
 namespace sateen::app {
 
-/// SIGINT and SIGTERM end the program at once, except inside a StopOnSignal: there they raise `interrupted`, so that
-/// what was computed can be written. A second one then ends the program at once. Broken pipes are no signal.
+/// SIGINT, SIGTERM and SIGHUP (unless it is ignored, as under nohup) end the program at once, except inside a
+/// StopOnSignal: there they raise `interrupted`, so that what was computed can be written. A second one then ends the
+/// program at once. Broken pipes and files that grow too large are failures of writing, no signals.
 void install_signals();
 
 class StopOnSignal {

@@ -9,6 +9,7 @@
 #include "console.h"
 #include "exit_code.h"
 #include "look/read.h"
+#include "outputs.h"
 #include "picture_flags.h"
 #include "scene/environment_file.h"
 #include "signals.h"
@@ -84,6 +85,16 @@ void check_names(const StudySettings& s) {
   for (const std::string& light : s.lights)
     if (const std::string map = study_map(light); map != white_light && !map.empty()) find_environment(map);
 }
+
+/// What is read besides the looks, whose reading was noted.
+std::vector<NamedFile> study_inputs(const StudySettings& s) {
+  std::vector<NamedFile> inputs = config_input({});
+  inputs.push_back({"mesh", s.scene.mesh});
+  for (const std::string& light : s.lights)
+    if (const std::string map = study_map(light); map != white_light && !map.empty())
+      inputs.push_back({"map", find_environment(map).string()});
+  return inputs;
+}
 }  // namespace
 
 int run_study(const std::vector<std::string>& words) {
@@ -104,6 +115,7 @@ int run_study(const std::vector<std::string>& words) {
     if (!command.given("--time")) study.cpu_seconds = 60;
   }
   check_names(study);
+  check_report_folder(flags.folder, {"index.html", "study.csv", "study.json", "study.txt"}, study_inputs(study));
   const ColorManager colors;
   WorkProgress progress(voice.verbosity != Verbosity::quiet);
   const StopOnSignal stop_on_signal;
@@ -112,9 +124,9 @@ int run_study(const std::vector<std::string>& words) {
       [&](const StudyState& state) { progress.update(state.fraction, state.seconds_left, state.doing); },
       &interrupted);
   progress.finish();
+  print_note(study_text(result));
   const std::vector<std::string> files =
       write_study(flags.folder, result, SATEEN_VERSION, "sateen study " + shell_line(words));
-  print_note(study_text(result));
   print_note(fmt::format("wrote {} files into {}; open {}", files.size(), flags.folder,
                          (std::filesystem::path(flags.folder) / "index.html").string()));
   return result.interrupted ? 128 + signal_received() : int(done);

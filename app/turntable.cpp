@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "assembly.h"
 #include "commands.h"
@@ -11,6 +10,8 @@
 #include "exit_code.h"
 #include "film/develop.h"
 #include "image/contact_sheet.h"
+#include "memory.h"
+#include "outputs.h"
 #include "picture_flags.h"
 #include "picture_report.h"
 #include "render/frames.h"
@@ -58,25 +59,35 @@ void describe(Command& c, TurntableFlags& f) {
             "every fourth frame of a light that turns");
 }
 
-void check_names(TurntableFlags& f, const std::vector<int>& frames) {
-  if (f.picture.outputs.empty()) f.picture.outputs = {"turntable.####.png"};
-  std::set<std::string> names;
-  for (const std::string& output : f.picture.outputs) {
+/// The outputs of all frames, the sheet and the stats. InputError where a name does not fit, or two are one file.
+std::vector<NamedFile> check_names(TurntableFlags& f, const std::vector<int>& frames) {
+  PictureFlags& p = f.picture;
+  if (p.outputs.empty()) p.outputs = {"turntable.####.png"};
+  for (const std::string& output : p.outputs) {
     if (frames.size() > 1 && !has_frame_place(output))
       throw InputError(fmt::format("--output {} has no place for a frame's number, and there are {} frames", output,
                                    frames.size()),
                        "write it such as turn.####.png");
-    check_picture_path(frame_name(output, frames[0]), !f.picture.dry_run);
-    if (!names.insert(frame_name(output, frames[0])).second)
-      throw InputError(fmt::format("--output {} is given twice", output), "leave one of them out");
+    check_picture_path(frame_name(output, frames[0]), false);
   }
-  if (!f.picture.stats.empty()) check_can_write(f.picture.stats, !f.picture.dry_run);
-  if (!f.picture.dry_run) check_memory(f.picture);
-  if (f.sheet.empty()) return;
-  check_picture_path(f.sheet, !f.picture.dry_run);
-  if (is_exr(f.sheet)) throw InputError("a sheet is for looking at and is not written as EXR", "use .png or .jpg");
-  if (has_frame_place(f.sheet))
-    throw InputError(fmt::format("--sheet {} has a place for a number, but is one picture", f.sheet));
+  if (!f.sheet.empty()) {
+    check_picture_path(f.sheet, false);
+    if (is_exr(f.sheet)) throw InputError("a sheet is for looking at and is not written as EXR", "use .png or .jpg");
+    if (has_frame_place(f.sheet))
+      throw InputError(fmt::format("--sheet {} has a place for a number, but is one picture", f.sheet));
+  }
+  std::vector<std::string> names;
+  for (const int frame : frames)
+    for (const std::string& output : p.outputs) names.push_back(frame_name(output, frame));
+  std::vector<NamedFile> files = named_outputs(names, {{"--sheet", f.sheet}, {"--stats", p.stats}});
+  if (!p.dry_run) {
+    // One frame stands for all: they lie in one folder, or in one that is made when they are written.
+    for (size_t i = 0; i < p.outputs.size(); ++i) check_can_write(names[i]);
+    for (const std::string& other : {f.sheet, p.stats})
+      if (!other.empty()) check_can_write(other);
+    check_film_memory(p);
+  }
+  return files;
 }
 
 // The display picture of a frame that is there already.
@@ -135,11 +146,10 @@ class Turntable {
     });
   }
 
-  RenderResult render_frame(const Frame& frame, Progress& progress, std::vector<WrittenPicture>& written) {
+  RenderResult render_frame(const Frame& frame, Progress& progress, WrittenPictures& pictures) {
     pose_turntable(scene_, start_, frame.angle);
     const auto& files = frame.files;
-    const bool any_exr = std::any_of(files.begin(), files.end(), [](const auto& o) { return is_exr(o); });
-    Film film(job_.scene.width, job_.scene.height, any_exr && !job_.layers.empty());
+    Film film(job_.scene.width, job_.scene.height, keeps_layers());
     const RenderResult result = render(
         scene_, frame.job.render, film, [&](const RenderState& state) { progress.update(state); }, &interrupted);
     PictureContent content{&film,
@@ -150,8 +160,15 @@ class Turntable {
                            picture_attributes(frame.job, report_, result)};
     const std::optional<References> references = references_of(flags_.picture, frame.job, scene_, colors_);
     if (references) content.overlay = &references->overlay;
-    written = write_pictures(files, content, colors_, job_.render.threads);
+    const bool partial = result.reason == StopReason::interrupted;
+    pictures = write_pictures(partial ? names_for_partial(files) : files, content, colors_, job_.render.threads);
     return result;
+  }
+
+  bool keeps_layers() const {
+    const auto& outputs = flags_.picture.outputs;
+    return !job_.layers.empty() &&
+           std::any_of(outputs.begin(), outputs.end(), [](const auto& o) { return is_exr(o); });
   }
 
   const ColorManager& colors() const { return colors_; }
@@ -167,13 +184,18 @@ class Turntable {
   PictureJob job_;
 };
 
+/// A sheet of the frames that are there.
 void write_sheet(const TurntableFlags& flags, const Turntable& turntable, const std::vector<Frame>& frames) {
   // A sheet is looked at as a whole: about 2,400 pixels wide however many frames there are.
   const int side = std::clamp(int(2400 / std::ceil(std::sqrt(double(frames.size()) * 1.5))), 48, 320);
   std::vector<SheetPicture> pictures;
-  for (const Frame& frame : frames)
-    pictures.push_back(
-        {read_small(frame, turntable.colors(), side), fmt::format("{}: {:.4g} deg", frame.number, frame.angle)});
+  for (const Frame& frame : frames) try {
+      pictures.push_back(
+          {read_small(frame, turntable.colors(), side), fmt::format("{}: {:.4g} deg", frame.number, frame.angle)});
+    } catch (const InputError& error) {
+      print_warning(fmt::format("the sheet leaves frame {} out: {}", frame.number, error.diagnostics[0].message));
+    }
+  if (pictures.empty()) throw OperationError(fmt::format("{}: not written: no frame is there", flags.sheet));
   write_display_image(flags.sheet, contact_sheet(pictures, flags.labels));
   print_note("wrote " + flags.sheet);
 }
@@ -189,14 +211,16 @@ int run_turntable(const std::vector<std::string>& words) {
   settle_picture_flags(command, flags.picture);
   const std::vector<int> numbers =
       parse_frames(flags.frames.empty() ? fmt::format("1-{}", flags.count) : flags.frames);
-  check_names(flags, numbers);
+  const std::vector<NamedFile> to_write = check_names(flags, numbers);
   if (flags.motion_blur > 0 && flags.turn == "light")
     throw InputError("--motion-blur with --turn light: nothing that is seen moves", "leave one of them out");
   flags.picture.scene.stage.shutter_deg = float(flags.motion_blur * flags.degrees / flags.count);
 
-  Turntable turntable(flags, "turntable " + shell_line(words));
+  Turntable turntable(flags, recorded_line("turntable", words));
+  check_not_read(to_write, config_input(flags.picture.ocio));
   const PictureFlags& picture = flags.picture;
   print_scene(picture, turntable.job(), turntable.report());
+  if (!picture.dry_run) check_picture_memory(picture, turntable.keeps_layers());
   const std::vector<Frame> frames = turntable.frames(numbers);
   std::vector<bool> finished;
   for (const Frame& frame : frames) finished.push_back(turntable.is_finished(frame));
@@ -214,6 +238,7 @@ int run_turntable(const std::vector<std::string>& words) {
       .open_list();
 
   int code = done;
+  Endings endings;
   Progress progress(picture.progress, progress_writer(picture.progress), std::max(open, 1));
   const StopOnSignal stop_on_signal;
   for (size_t i = 0; i < frames.size() && !interrupted; ++i) {
@@ -224,11 +249,11 @@ int run_turntable(const std::vector<std::string>& words) {
         .member("skipped", bool(finished[i]));
     w.member("job", job_hash(frame.job, turntable.report()));
     if (!finished[i] && !picture.dry_run) {
-      std::vector<WrittenPicture> written;
-      const RenderResult result = turntable.render_frame(frame, progress, written);
-      write_result(w, result, written);
+      WrittenPictures pictures;
+      const RenderResult result = turntable.render_frame(frame, progress, pictures);
+      write_result(w, result, pictures);
       progress.clear_line();
-      for (const WrittenPicture& file : written) print_written(turntable.job(), file);
+      endings.tell(turntable.job(), pictures);
       if (result.reason == StopReason::interrupted || picture.verbose || result.rays.non_finite > 0)
         print_result_line(frame.job, result);
       code = std::max(code, picture_code(picture, result));
@@ -243,11 +268,13 @@ int run_turntable(const std::vector<std::string>& words) {
     progress.stopped();
     code = 128 + signal_received();
   } else if (!flags.sheet.empty() && !picture.dry_run) {
-    write_sheet(flags, turntable, frames);
+    endings.attempt([&] { write_sheet(flags, turntable, frames); });
   }
   if (!picture.dry_run) progress.done();
-  write_stats(picture, w.close().member("exit_code", code).close().text());
-  return code;
+  code = endings.code(code);
+  w.close().member("exit_code", code).close();
+  endings.attempt([&] { write_stats(picture, w.text()); });
+  return endings.code(code);
 }
 
 }  // namespace sateen::app

@@ -1,8 +1,6 @@
 #include "base/files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/file_identity.h"
 #include "base/missing_file.h"
 
 namespace sateen {
@@ -34,81 +33,8 @@ std::string read_text_file(const fs::path& path, std::uint64_t limit) {
   std::string text(size, '\0');
   in.read(text.data(), std::streamsize(size));
   if (std::uint64_t(in.gcount()) != size) fail("could not be read to its end");
+  note_file_read(path);
   return text;
-}
-
-namespace {
-void sync_path(const fs::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
-  if (descriptor < 0) throw OperationError(fmt::format("cannot open: {}", std::strerror(errno)));
-  const int result = ::fsync(descriptor);
-  const int error = errno;
-  ::close(descriptor);
-  // Some file systems refuse fsync on a folder; the rename itself has then been done as well as can be.
-  if (result != 0 && error != EINVAL && error != EROFS)
-    throw OperationError(fmt::format("cannot flush to disk: {}", std::strerror(error)));
-}
-
-fs::path reserve_temporary(const fs::path& path) {
-  // The extension stays last: image writers choose the format by it.
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    fs::path name = path;
-    name.replace_filename(
-        fmt::format(".{}.{}-{}{}", path.stem().string(), ::getpid(), attempt, path.extension().string()));
-    const int descriptor = ::open(name.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor >= 0) {
-      ::close(descriptor);
-      return name;
-    }
-    if (errno != EEXIST) throw OperationError(fmt::format("cannot create a file here: {}", std::strerror(errno)));
-  }
-  throw OperationError("cannot find a free temporary name in this folder");
-}
-}  // namespace
-
-void write_file_whole(const fs::path& path, const std::function<void(const fs::path&)>& write,
-                      const std::function<void(const fs::path&)>& verify) {
-  fs::path temporary;
-  try {
-    std::error_code code;
-    if (const fs::file_status status = fs::status(path, code); fs::exists(status) && !fs::is_regular_file(status))
-      throw OperationError("exists and is not a regular file");
-    if (path.has_parent_path()) fs::create_directories(path.parent_path());
-    temporary = reserve_temporary(path);
-    write(temporary);
-    if (verify) verify(temporary);
-    sync_path(temporary, O_RDONLY);
-    fs::rename(temporary, path);
-    temporary.clear();
-    sync_path(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
-  } catch (const InputError&) {
-    std::error_code ignored;
-    if (!temporary.empty()) fs::remove(temporary, ignored);
-    throw;
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    if (!temporary.empty()) fs::remove(temporary, ignored);
-    throw OperationError(fmt::format("{}: not written: {}", path.string(), error.what()));
-  }
-}
-
-void write_text_whole(const fs::path& path, std::string_view text) {
-  write_file_whole(path, [&](const fs::path& temporary) {
-    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-    if (descriptor < 0) throw OperationError(std::strerror(errno));
-    std::string_view left = text;
-    while (!left.empty()) {
-      const ssize_t wrote = ::write(descriptor, left.data(), left.size());
-      if (wrote < 0 && errno == EINTR) continue;
-      if (wrote <= 0) {
-        const int error = wrote < 0 ? errno : EIO;
-        ::close(descriptor);
-        throw OperationError(std::strerror(error));
-      }
-      left.remove_prefix(size_t(wrote));
-    }
-    if (::close(descriptor) != 0) throw OperationError(std::strerror(errno));
-  });
 }
 
 fs::path data_folder() {

@@ -10,17 +10,17 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
+#include <optional>
 #include <set>
 
 #include "base/error.h"
+#include "base/file_writer.h"
 #include "base/files.h"
 #include "base/parallel.h"
+#include "image/bands.h"
 #include "image/file.h"
 
 namespace sateen {
@@ -31,50 +31,16 @@ namespace {
 // A noisy picture of all layers takes a third less time to pack than at the usual 6 and is 2 % larger.
 constexpr int zip_level = 3;
 
-// OpenEXR's own file stream loses what its last flush says; this one reports every failed write.
 class CheckedStream : public Imf::OStream {
  public:
-  explicit CheckedStream(const fs::path& path) : Imf::OStream(path.c_str()) {
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-    if (descriptor_ < 0) throw OperationError(std::strerror(errno));
-  }
-  ~CheckedStream() override {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  void write(const char bytes[], int count) override {
-    if (position_ != std::uint64_t(buffer_start_) + buffer_.size() || buffer_.size() > (1u << 20)) flush();
-    buffer_.insert(buffer_.end(), bytes, bytes + count);
-    position_ += std::uint64_t(count);
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override {
-    flush();
-    position_ = buffer_start_ = position;
-  }
-  void close() {
-    flush();
-    const int result = ::close(descriptor_);
-    descriptor_ = -1;
-    if (result != 0) throw OperationError(std::strerror(errno));
-  }
+  explicit CheckedStream(const fs::path& path) : Imf::OStream(path.c_str()), writer_(path) {}
+  void write(const char bytes[], int count) override { writer_.write(bytes, size_t(count)); }
+  std::uint64_t tellp() override { return writer_.position(); }
+  void seekp(std::uint64_t position) override { writer_.seek(position); }
+  void close() { writer_.close(); }
 
  private:
-  void flush() {
-    size_t done = 0;
-    while (done < buffer_.size()) {
-      const ssize_t wrote =
-          ::pwrite(descriptor_, buffer_.data() + done, buffer_.size() - done, off_t(buffer_start_ + done));
-      if (wrote < 0 && errno == EINTR) continue;
-      if (wrote <= 0) throw OperationError(std::strerror(wrote < 0 ? errno : EIO));
-      done += size_t(wrote);
-    }
-    buffer_start_ += buffer_.size();
-    buffer_.clear();
-  }
-
-  int descriptor_ = -1;
-  std::uint64_t position_ = 0, buffer_start_ = 0;
-  std::vector<char> buffer_;
+  FileWriter writer_;
 };
 
 // The channels of all layers as they lie in memory, half ones rounded; the same shape serves writing and reading.
@@ -90,7 +56,8 @@ std::string channel_name(const ImageLayer& layer, size_t channel) {
   return layer.name.empty() ? layer.channels[channel] : layer.name + "." + layer.channels[channel];
 }
 
-Imf::FrameBuffer frame_buffer(const std::vector<ImageLayer>& layers, Planes& planes) {
+// For rows from `y0` of the picture on.
+Imf::FrameBuffer frame_buffer(const std::vector<ImageLayer>& layers, Planes& planes, int y0) {
   Imf::FrameBuffer frame;
   for (size_t l = 0; l < layers.size(); ++l) {
     const auto width = size_t(layers[l].image.width), channels = size_t(layers[l].image.channels);
@@ -98,21 +65,26 @@ Imf::FrameBuffer frame_buffer(const std::vector<ImageLayer>& layers, Planes& pla
     const size_t size = is_half ? sizeof(half) : sizeof(float);
     char* base = is_half ? reinterpret_cast<char*>(planes.layers[l].halves.data())
                          : reinterpret_cast<char*>(planes.layers[l].floats.data());
+    // The library counts from row 0, which does not lie in memory: an address below it, never touched.
+    const auto row = std::uintptr_t(width * channels * size);
+    const std::uintptr_t origin = reinterpret_cast<std::uintptr_t>(base) - std::uintptr_t(y0) * row;
     for (size_t c = 0; c < channels; ++c)
-      frame.insert(channel_name(layers[l], c), Imf::Slice(is_half ? Imf::HALF : Imf::FLOAT, base + c * size,
-                                                          channels * size, width * channels * size));
+      frame.insert(channel_name(layers[l], c),
+                   Imf::Slice(is_half ? Imf::HALF : Imf::FLOAT, reinterpret_cast<char*>(origin + c * size),
+                              channels * size, row));
   }
   return frame;
 }
 
-// Rounds the half layers; finite values beyond half's range are held at its ends and counted.
-Planes planes_of(const std::vector<ImageLayer>& layers, long long& clamped) {
+// Takes the pixels out of the layers, and rounds the half ones; finite values beyond half's range are held at its
+// ends and counted.
+Planes planes_of(std::vector<ImageLayer>& layers, long long& clamped) {
   Planes planes;
   planes.layers.resize(layers.size());
   for (size_t l = 0; l < layers.size(); ++l) {
-    const auto& pixels = layers[l].image.pixels;
+    auto& pixels = layers[l].image.pixels;
     if (!layers[l].half) {
-      planes.layers[l].floats = pixels;
+      planes.layers[l].floats.swap(pixels);
       continue;
     }
     planes.layers[l].halves.resize(pixels.size());
@@ -128,9 +100,9 @@ Planes planes_of(const std::vector<ImageLayer>& layers, long long& clamped) {
   return planes;
 }
 
-Imf::Header header_of(const std::vector<ImageLayer>& layers, const Attributes& attributes,
+Imf::Header header_of(int width, int height, const std::vector<ImageLayer>& layers, const Attributes& attributes,
                       const ColorManager::Chromaticities& c) {
-  Imf::Header header(layers[0].image.width, layers[0].image.height);
+  Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.zipCompressionLevel() = zip_level;
   for (const ImageLayer& layer : layers)
@@ -146,49 +118,80 @@ Imf::Header header_of(const std::vector<ImageLayer>& layers, const Attributes& a
   return header;
 }
 
-void check_layers(const fs::path& path, const std::vector<ImageLayer>& layers) {
-  const auto fail = [&](const std::string& what) {
-    throw OperationError(fmt::format("{}: not written: {}", path.string(), what));
-  };
-  if (layers.empty()) fail("there are no layers");
+void check_layers(const std::vector<ImageLayer>& layers, int width, int rows) {
   std::set<std::string> names;
   for (const ImageLayer& layer : layers) {
-    const Image& image = layer.image;
-    if (image.width < 1 || image.height < 1) fail(fmt::format("layer \"{}\" is empty", layer.name));
-    if (image.width != layers[0].image.width || image.height != layers[0].image.height)
-      fail(fmt::format("layer \"{}\" is {} x {}, expected {} x {}", layer.name, image.width, image.height,
-                       layers[0].image.width, layers[0].image.height));
-    if (size_t(image.channels) != layer.channels.size())
-      fail(fmt::format("layer \"{}\" has {} channels and {} names", layer.name, image.channels,
-                       layer.channels.size()));
+    if (layer.image.width != width || layer.image.height != rows)
+      throw OperationError(fmt::format("layer \"{}\" is {} x {}, expected {} x {}", layer.name, layer.image.width,
+                                       layer.image.height, width, rows));
+    if (size_t(layer.image.channels) != layer.channels.size())
+      throw OperationError(fmt::format("layer \"{}\" has {} channels and {} names", layer.name, layer.image.channels,
+                                       layer.channels.size()));
     for (size_t i = 0; i < layer.channels.size(); ++i)
       if (!names.insert(channel_name(layer, i)).second)
-        fail(fmt::format("there are two channels named {}", channel_name(layer, i)));
+        throw OperationError(fmt::format("there are two channels named {}", channel_name(layer, i)));
   }
 }
 
-void verify(const fs::path& path, const std::vector<ImageLayer>& layers, const Planes& meant) {
+/// A picture that is made, packed, read back and compared band by band.
+struct Bands {
+  int width, height, step;
+  const LayerRows& rows;
+
+  std::vector<ImageLayer> at(int y0) const {
+    std::vector<ImageLayer> band = rows(y0, std::min(y0 + step, height));
+    check_layers(band, width, std::min(y0 + step, height) - y0);
+    return band;
+  }
+};
+
+long long write_bands(const fs::path& path, const Bands& bands, const Attributes& attributes,
+                      const ColorManager::Chromaticities& chromaticities) {
+  long long clamped = 0;
+  CheckedStream stream(path);
+  {
+    std::optional<Imf::OutputFile> file;
+    for (int y0 = 0; y0 < bands.height; y0 += bands.step) {
+      std::vector<ImageLayer> band = bands.at(y0);
+      const int rows = band[0].image.height;
+      Planes planes = planes_of(band, clamped);
+      if (!file) file.emplace(stream, header_of(bands.width, bands.height, band, attributes, chromaticities));
+      file->setFrameBuffer(frame_buffer(band, planes, y0));
+      file->writePixels(rows);
+    }
+  }
+  stream.close();
+  return clamped;
+}
+
+void verify(const fs::path& path, const Bands& bands) {
   Imf::InputFile file(path.c_str());
   const Imath::Box2i window = file.header().dataWindow();
-  if (window.max.x - window.min.x + 1 != layers[0].image.width ||
-      window.max.y - window.min.y + 1 != layers[0].image.height)
+  if (window.min != Imath::V2i(0) || window.max != Imath::V2i(bands.width - 1, bands.height - 1))
     throw OperationError("the file written has another size than the picture");
-  Planes back;
-  back.layers.resize(layers.size());
-  for (size_t l = 0; l < layers.size(); ++l) {
-    back.layers[l].halves.resize(meant.layers[l].halves.size());
-    back.layers[l].floats.resize(meant.layers[l].floats.size());
-  }
-  file.setFrameBuffer(frame_buffer(layers, back));
-  file.readPixels(window.min.y, window.max.y);
   // Bytes, not values: a NaN that was meant must come back as that NaN.
   const auto same = [](const auto& a, const auto& b) {
     return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
   };
-  for (size_t l = 0; l < layers.size(); ++l)
-    if (!same(back.layers[l].halves, meant.layers[l].halves) || !same(back.layers[l].floats, meant.layers[l].floats))
-      throw OperationError(
-          fmt::format("the pixels of layer \"{}\" read back differ from those written", layers[l].name));
+  for (int y0 = 0; y0 < bands.height; y0 += bands.step) {
+    std::vector<ImageLayer> band = bands.at(y0);
+    const int rows = band[0].image.height;
+    long long clamped = 0;
+    const Planes meant = planes_of(band, clamped);
+    Planes back;
+    for (const Planes::Layer& layer : meant.layers) {
+      back.layers.emplace_back();
+      back.layers.back().halves.resize(layer.halves.size());
+      back.layers.back().floats.resize(layer.floats.size());
+    }
+    file.setFrameBuffer(frame_buffer(band, back, y0));
+    file.readPixels(y0, y0 + rows - 1);
+    for (size_t l = 0; l < meant.layers.size(); ++l)
+      if (!same(back.layers[l].halves, meant.layers[l].halves) ||
+          !same(back.layers[l].floats, meant.layers[l].floats))
+        throw OperationError(
+            fmt::format("the pixels of layer \"{}\" read back differ from those written", band[l].name));
+  }
 }
 }  // namespace
 
@@ -198,23 +201,20 @@ void set_exr_threads(int threads) {
   Imf::setGlobalThreadCount(count > 1 ? count : 0);
 }
 
-long long write_exr(const fs::path& path, const std::vector<ImageLayer>& layers, const Attributes& attributes,
+long long write_exr(const fs::path& path, int width, int height, const LayerRows& rows, const Attributes& attributes,
                     const ColorManager::Chromaticities& chromaticities) {
-  check_layers(path, layers);
   long long clamped = 0;
-  Planes planes = planes_of(layers, clamped);
-  write_file_whole(
-      path,
-      [&](const fs::path& temporary) {
-        CheckedStream stream(temporary);
-        {
-          Imf::OutputFile file(stream, header_of(layers, attributes, chromaticities));
-          file.setFrameBuffer(frame_buffer(layers, planes));
-          file.writePixels(layers[0].image.height);
-        }
-        stream.close();
-      },
-      [&](const fs::path& temporary) { verify(temporary, layers, planes); });
+  write_file_whole(path, [&](const fs::path& temporary) {
+    if (width < 1 || height < 1) throw OperationError(fmt::format("the picture is {} x {}", width, height));
+    const std::vector<ImageLayer> first = rows(0, 1);
+    if (first.empty()) throw OperationError("there are no layers");
+    std::int64_t channels = 0;
+    for (const ImageLayer& layer : first) channels += layer.image.channels;
+    const Bands bands{width, height,
+                      exr_band_rows(channels * width * std::int64_t(sizeof(float)), Imf::globalThreadCount()), rows};
+    clamped = write_bands(temporary, bands, attributes, chromaticities);
+    verify(temporary, bands);
+  });
   return clamped;
 }
 

@@ -3,7 +3,10 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
+#include "base/file_identity.h"
 #include "image/oiio/functions.h"
 #include "image/plain_exr.h"
 
@@ -46,17 +49,58 @@ ImageFileInfo read_image_info(const fs::path& path) {
 }
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
-  if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
-  return image_file_functions().read_pixels(path, limits, info);
+  std::optional<Image> plain = read_plain_exr(path, limits, info);
+  Image image = plain ? std::move(*plain) : image_file_functions().read_pixels(path, limits, info);
+  note_file_read(path);
+  return image;
+}
+
+bool image_decodes(const fs::path& path) {
+  return image_file_functions().decodes(path);
 }
 
 Attributes read_attributes(const fs::path& path) {
   return image_file_functions().read_texts(path);
 }
 
+namespace {
+Image rows_of(const Image& image, int y0, int y1) {
+  Image rows(image.width, y1 - y0, image.channels);
+  std::copy(image.at(0, y0), image.at(0, y0) + rows.pixels.size(), rows.pixels.begin());
+  return rows;
+}
+}  // namespace
+
 void write_display_image(const fs::path& path, const Image& image, const Attributes& attributes, int bits,
                          bool srgb) {
-  image_file_functions().write_display(path, image, attributes, bits, srgb);
+  write_display_image(
+      path, image.width, image.height, image.channels, [&](int y0, int y1) { return rows_of(image, y0, y1); },
+      attributes, bits, srgb);
+}
+
+void write_display_image(const fs::path& path, int width, int height, int channels, const DisplayRows& rows,
+                         const Attributes& attributes, int bits, bool srgb) {
+  image_file_functions().write_display(path, {width, height, channels, rows}, attributes, bits, srgb);
+}
+
+long long write_exr(const fs::path& path, const std::vector<ImageLayer>& layers, const Attributes& attributes,
+                    const ColorManager::Chromaticities& chromaticities) {
+  const auto fail = [&](const std::string& what) {
+    throw OperationError(fmt::format("{}: not written: {}", path.string(), what));
+  };
+  if (layers.empty()) fail("there are no layers");
+  const Image& first = layers[0].image;
+  for (const ImageLayer& layer : layers)
+    if (layer.image.width != first.width || layer.image.height != first.height)
+      fail(fmt::format("layer \"{}\" is {} x {}, expected {} x {}", layer.name, layer.image.width, layer.image.height,
+                       first.width, first.height));
+  const auto rows = [&](int y0, int y1) {
+    std::vector<ImageLayer> band;
+    for (const ImageLayer& layer : layers)
+      band.push_back({layer.name, layer.channels, layer.half, rows_of(layer.image, y0, y1)});
+    return band;
+  };
+  return write_exr(path, first.width, first.height, rows, attributes, chromaticities);
 }
 
 }  // namespace sateen

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,12 +55,27 @@ void set_exr_threads(int threads);
 long long write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,
                     const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
 
+/// The same bytes of a picture that never lies in memory whole: `rows` makes the rows from y0 to y1 of all layers,
+/// always the same ones, from the top downwards, once to write them and once more to compare.
+using LayerRows = std::function<std::vector<ImageLayer>(int y0, int y1)>;
+long long write_exr(const std::filesystem::path& path, int width, int height, const LayerRows& rows,
+                    const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
+
 /// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.
 /// Dithered to 8 bit (png, tif) with a fixed blue-noise pattern so that smooth satin does not band. Verified like
 /// write_exr. Colours are written as they are, beside alpha and not multiplied by it, as PNG wants; JPEG drops alpha.
 /// `srgb`: the codes are sRGB's, and a PNG says so; else they are Rec.1886 Rec.709's.
 void write_display_image(const std::filesystem::path& path, const Image& image, const Attributes& attributes = {},
                          int bits = 8, bool srgb = true);
+
+/// The same bytes of a picture of which `rows` makes the rows from y0 to y1, from the top downwards, once to write
+/// them and once more to compare. All have `channels`, 3 or 4.
+using DisplayRows = std::function<Image(int y0, int y1)>;
+void write_display_image(const std::filesystem::path& path, int width, int height, int channels,
+                         const DisplayRows& rows, const Attributes& attributes = {}, int bits = 8, bool srgb = true);
+
+/// Whether all pixels of a picture file can be decoded, whatever its size; never more than a band of them is held.
+bool image_decodes(const std::filesystem::path& path);
 
 /// Attributes of a picture that the program wrote, "sateen:..." keys and Software; empty when there are none.
 Attributes read_attributes(const std::filesystem::path& path);

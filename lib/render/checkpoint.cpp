@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <type_traits>
 
 #include "base/error.h"
+#include "base/file_writer.h"
 #include "base/files.h"
+#include "base/missing_file.h"
 #include "look/json.h"
 
 namespace sateen {
@@ -17,14 +21,13 @@ namespace {
 
 // The number counts up with every change of what follows.
 constexpr char magic[16] = "sateen render 3";
-constexpr std::uint64_t largest_file = std::uint64_t(1) << 36;
 
 /// Values to bytes and back, in one order for both, so that writing and reading cannot differ.
 class Writer {
  public:
-  explicit Writer(std::ofstream& out) : out_(out) {}
+  explicit Writer(FileWriter& out) : out_(out) {}
   void bytes(const void* data, size_t size) {
-    out_.write(static_cast<const char*>(data), std::streamsize(size));
+    out_.write(data, size);
     hash_.add_bytes(data, size);
   }
   template <class T>
@@ -36,28 +39,37 @@ class Writer {
     value(std::uint64_t(text.size()));
     bytes(text.data(), text.size());
   }
+  void array(const std::vector<std::string>& all) {
+    value(std::uint64_t(all.size()));
+    for (const std::string& each : all) value(each);
+  }
   template <class T>
   void array(const std::vector<T>& all) {
+    value(std::uint64_t(sizeof(T)));
     value(std::uint64_t(all.size()));
-    if constexpr (!std::is_same_v<T, std::string>)
-      bytes(all.data(), all.size() * sizeof(T));
-    else
-      for (const T& each : all) value(each);
+    bytes(all.data(), all.size() * sizeof(T));
   }
   std::uint64_t hash() const { return hash_.value; }
 
  private:
-  std::ofstream& out_;
+  FileWriter& out_;
   Hash hash_;
 };
 
+/// What is thrown where a file is not what a Writer wrote.
+struct Damaged {};
+
+/// Straight into place: the film is most of the file, and is not held twice.
 class Reader {
  public:
-  explicit Reader(const std::string& text) : text_(text) {}
+  Reader(std::istream& in, std::uint64_t size) : in_(in), left_(size) {}
   void bytes(void* data, size_t size) {
-    if (size > text_.size() - at_) throw std::length_error("short");
-    if (size > 0) std::memcpy(data, text_.data() + at_, size);  // an empty vector's data may be null
-    at_ += size;
+    if (size > left_) throw Damaged();
+    if (size == 0) return;  // an empty vector's data may be null
+    in_.read(static_cast<char*>(data), std::streamsize(size));
+    if (std::uint64_t(in_.gcount()) != size) throw Damaged();
+    hash_.add_bytes(data, size);
+    left_ -= size;
   }
   template <class T>
   void value(T& v) {
@@ -67,29 +79,34 @@ class Reader {
     text.resize(size_t(count(1)));
     bytes(text.data(), text.size());
   }
+  void array(std::vector<std::string>& all) {
+    all.resize(size_t(count(sizeof(std::uint64_t))));
+    for (std::string& each : all) value(each);
+  }
   template <class T>
   void array(std::vector<T>& all) {
-    if constexpr (!std::is_same_v<T, std::string>) {
-      all.resize(size_t(count(sizeof(T))));
-      bytes(all.data(), all.size() * sizeof(T));
-    } else {
-      all.resize(size_t(count(sizeof(std::uint64_t))));
-      for (T& each : all) value(each);
-    }
+    // Of a program whose values have another shape.
+    std::uint64_t size = 0;
+    value(size);
+    if (size != sizeof(T)) throw Damaged();
+    all.resize(size_t(count(sizeof(T))));
+    bytes(all.data(), all.size() * sizeof(T));
   }
-  std::uint64_t read_so_far() const { return at_; }
+  std::uint64_t hash() const { return hash_.value; }
+  std::uint64_t left() const { return left_; }
 
  private:
   // A damaged count must not become a request for memory.
   std::uint64_t count(size_t each) {
     std::uint64_t n = 0;
     value(n);
-    if (n > (text_.size() - at_) / each) throw std::length_error("short");
+    if (n > left_ / each) throw Damaged();
     return n;
   }
 
-  const std::string& text_;
-  std::uint64_t at_ = 0;
+  std::istream& in_;
+  std::uint64_t left_;
+  Hash hash_;
 };
 
 template <class Stream, class C>
@@ -113,6 +130,9 @@ void exchange(Stream& s, C& c) {
   s.value(c.course.rays.camera);
   s.value(c.course.rays.shadow);
   s.value(c.course.rays.bounce);
+  s.value(c.course.rays.lit);
+  s.value(c.course.rays.shadow_after);
+  s.value(c.course.rays.lit_after);
   s.value(c.course.rays.non_finite);
 }
 
@@ -125,8 +145,9 @@ void exchange(Stream& s, C& c) {
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
-  write_file_whole(path, [&](const std::filesystem::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  std::uint64_t meant = 0;
+  const auto write = [&](const std::filesystem::path& temporary) {
+    FileWriter out(temporary);
     Writer writer(out);
     writer.value(magic);
     writer.value(std::uint64_t(c.facts.size()));
@@ -136,24 +157,51 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
       writer.value(fact.shown);
     }
     exchange(writer, c);
-    const std::uint64_t hash = writer.hash();
-    writer.value(hash);
+    writer.value(std::uint64_t(writer.hash()));
+    meant = writer.hash();
     out.close();
-    if (!out) throw OperationError(fmt::format("{} cannot be written", path.string()));
+  };
+  write_file_whole(path, write, [&](const std::filesystem::path& temporary) {
+    std::ifstream in(temporary, std::ios::binary);
+    Hash back;
+    std::vector<char> block(1 << 20);
+    while (in.read(block.data(), std::streamsize(block.size())), in.gcount() > 0)
+      back.add_bytes(block.data(), size_t(in.gcount()));
+    if (back.value != meant) throw OperationError("what is read back differs from what was written");
   });
 }
 
+namespace {
+/// Whether what was read fits together: counts, and numbers that something is divided by or indexed with.
+bool is_sound(const Checkpoint& c) {
+  const size_t pixels = c.film.pixels.size();
+  return c.film.width > 0 && c.film.height > 0 && pixels == size_t(c.film.width) * size_t(c.film.height) &&
+         (c.film.layers.empty() || c.film.layers.size() == pixels) && c.course.targets.size() == pixels &&
+         c.film.grain > 0 && std::isfinite(c.film.grain) && c.film.first_sample % replicates == 0 &&
+         c.course.samples >= 0 && c.course.barrier >= 0;
+}
+}  // namespace
+
 Checkpoint read_checkpoint(const std::filesystem::path& path) {
-  const std::string text = read_text_file(path, largest_file);
+  std::error_code code;
+  const std::filesystem::file_status status = std::filesystem::status(path, code);
+  const auto unreadable = [&](const std::string& why, const std::string& help = {}) {
+    throw InputError(fmt::format("{}: {}", path.string(), why), help, InputError::Kind::unreadable);
+  };
+  if (status.type() == std::filesystem::file_type::not_found) unreadable("no such file", missing_file_help(path));
+  if (status.type() != std::filesystem::file_type::regular) unreadable("is not a regular file");
+  const std::uint64_t size = std::filesystem::file_size(path, code);
+  std::ifstream in(path, std::ios::binary);
+  if (code || !in) unreadable(code ? code.message() : std::strerror(errno));
   Checkpoint c;
-  Reader reader(text);
+  Reader reader(in, size);
   try {
     char found[sizeof magic];
     reader.value(found);
     if (std::memcmp(found, magic, sizeof magic) != 0) damaged(path, "is no checkpoint, or one of another version");
     std::uint64_t facts = 0;
     reader.value(facts);
-    if (facts > 1000) throw std::length_error("facts");
+    if (facts > 1000) throw Damaged();
     c.facts.resize(size_t(facts));
     for (Fact& fact : c.facts) {
       reader.value(fact.name);
@@ -161,15 +209,11 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
       reader.value(fact.shown);
     }
     exchange(reader, c);
-    const std::uint64_t expected = Hash().add_bytes(text.data(), size_t(reader.read_so_far())).value;
+    const std::uint64_t expected = reader.hash();
     std::uint64_t hash = 0;
     reader.value(hash);
-    const size_t pixels = c.film.pixels.size();
-    const bool sizes = c.film.width > 0 && c.film.height > 0 &&
-                       pixels == size_t(c.film.width) * size_t(c.film.height) &&
-                       (c.film.layers.empty() || c.film.layers.size() == pixels) && c.course.targets.size() == pixels;
-    if (hash != expected || !sizes) throw std::length_error("hash");
-  } catch (const std::length_error&) {
+    if (hash != expected || reader.left() != 0 || !is_sound(c)) throw Damaged();
+  } catch (const Damaged&) {
     damaged(path, "is damaged: it is not what was written");
   }
   return c;
@@ -221,10 +265,7 @@ Checkpoint merge_checkpoints(const std::vector<std::filesystem::path>& paths) {
     sum.course.samples += c.course.samples;
     sum.course.seconds += c.course.seconds;
     sum.course.cpu_seconds += c.course.cpu_seconds;
-    sum.course.rays.camera += c.course.rays.camera;
-    sum.course.rays.shadow += c.course.rays.shadow;
-    sum.course.rays.bounce += c.course.rays.bounce;
-    sum.course.rays.non_finite += c.course.rays.non_finite;
+    sum.course.rays.add(c.course.rays);
   }
   std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first < b.first; });
   for (size_t i = 1; i < parts.size(); ++i) {

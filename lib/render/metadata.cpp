@@ -167,7 +167,8 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
     real("error_high", result.error.high);
     real("deviation_95", result.deviation);
   }
-  if (const Promise& p = result.promise; p.made) {
+  // Which of several rules will be met first is a question of time, and so is what is promised of the others.
+  if (const Promise& p = result.promise; p.made && job.timings) {
     const auto forecast = [&](const std::string& name, const Forecast& f) {
       real(("promised_" + name).c_str(), f.value);
       real(("promised_" + name + "_low").c_str(), f.low);
@@ -178,8 +179,10 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
     forecast("cpu_seconds", p.cpu_seconds);
   }
   text("stopped_by", stop_reason_text(result.reason));
-  real("seconds", result.seconds);
-  real("cpu_seconds", result.cpu_seconds);
+  if (job.timings) {
+    real("seconds", result.seconds);
+    real("cpu_seconds", result.cpu_seconds);
+  }
   whole("non_finite", result.rays.non_finite);
   text("working_space", job.working_space);
   text("color_config", job.color_config);
@@ -187,6 +190,36 @@ Attributes picture_attributes(const PictureJob& job, const SceneReport& report, 
   text("view", job.display.view);
   real("exposure", double(job.exposure_ev));
   return a;
+}
+
+namespace {
+bool may_give_way(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code) || std::filesystem::file_size(path, code) == 0) return true;
+  try {
+    const Attributes a = read_attributes(path);
+    const auto reason = a.find("sateen:stopped_by");
+    const auto* by = reason == a.end() ? nullptr : std::get_if<std::string>(&reason->second);
+    return by && *by == stop_reason_text(StopReason::interrupted);
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+}  // namespace
+
+std::vector<std::string> partial_names(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) {
+    std::filesystem::path name = path;
+    const auto taken = [&] {
+      return name != path && (std::find(paths.begin(), paths.end(), name.string()) != paths.end() ||
+                              std::find(names.begin(), names.end(), name.string()) != names.end());
+    };
+    while (taken() || !may_give_way(name))
+      name.replace_filename(name.stem().string() + ".partial" + name.extension().string());
+    names.push_back(name.string());
+  }
+  return names;
 }
 
 bool is_finished_picture(const std::filesystem::path& path, const std::string& hash, const StopRules& stop) {
@@ -201,7 +234,7 @@ bool is_finished_picture(const std::filesystem::path& path, const std::string& h
     const int* samples = std::get_if<int>(&spp->second);
     if (!text || !by || !samples || *text != hash || *by == stop_reason_text(StopReason::interrupted)) return false;
     if (*by == finished_by_samples && *samples != stop.spp) return false;
-    return *samples > 0 && read_image(path).width > 0;
+    return *samples > 0 && image_decodes(path);
   } catch (const std::exception&) {
     return false;  // a file that cannot be read is simply made again
   }

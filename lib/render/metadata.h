@@ -24,6 +24,7 @@ struct PictureJob {
   std::string version, command_line;
   int first_sample = 0;     ///< number of a pixel's first sample
   bool references = false;  ///< balls and chart laid over the picture
+  bool timings = false;     ///< times go into the attributes: then no two files are alike
   std::string turn;         ///< of a turntable's frame, "object 40"; empty for a still
 };
 
@@ -40,7 +41,8 @@ std::vector<Fact> sampling_facts(const PictureJob& job, const SceneReport& repor
 /// the number of threads, the files' names or the command line.
 std::string job_hash(const PictureJob& job, const SceneReport& report);
 
-/// The `sateen:*` attributes of a finished picture (docs/attributes.md lists them) and Software.
+/// The `sateen:*` attributes of a finished picture (docs/attributes.md lists them) and Software. Without `timings`
+/// they hold nothing of clock, machine or threads: of equal pictures they are equal.
 Attributes picture_attributes(const PictureJob& job, const SceneReport& report, const RenderResult& result);
 
 /// A name with _ for its blanks, as attributes and JSON have it.
@@ -48,6 +50,11 @@ std::string underscored(std::string name);
 
 /// "samples", "error", "time", "interrupted".
 std::string stop_reason_text(StopReason reason);
+
+/// Where pictures that are not finished go: a file that holds anything but an earlier unfinished picture of this
+/// program is not given up for one, and "a.exr" becomes "a.partial.exr". What is finished says so in its attributes:
+/// `stopped_by` is another than "interrupted". A file without them is somebody's, unless it is empty.
+std::vector<std::string> partial_names(const std::vector<std::string>& paths);
 
 /// True where the file decodes, carries this job's hash, and was finished: with `spp` asked, at that many samples.
 bool is_finished_picture(const std::filesystem::path& path, const std::string& hash, const StopRules& stop);

@@ -1,15 +1,12 @@
 #include "render/picture.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "film/develop.h"
@@ -54,6 +51,11 @@ float paper_code(float x, float y) {
 
 Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
                       float exposure_ev) {
+  return develop_display(beauty, colors, settings, exposure_ev, 0, beauty.height);
+}
+
+Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
+                      float exposure_ev, int y0, int height) {
   Image cloth = beauty;
   for (size_t i = 0; i < cloth.pixels.size(); i += 4)
     if (const float alpha = cloth.pixels[i + 3]; alpha > 0)
@@ -67,7 +69,7 @@ Image develop_display(const Image& beauty, const ColorManager& colors, const Dis
       const float* from = cloth.at(x, y);
       float* to = out.at(x, y);
       const float alpha = std::clamp(from[3], 0.0f, 1.0f);
-      const float paper = paper_code((float(x) + 0.5f) / float(out.width), (float(y) + 0.5f) / float(out.height));
+      const float paper = paper_code((float(x) + 0.5f) / float(out.width), (float(y0 + y) + 0.5f) / float(height));
       for (int c = 0; c < 3; ++c) {
         const float ground = settings.ground ? (*settings.ground)[c] : paper;
         to[c] = alpha >= 1   ? from[c]
@@ -75,23 +77,6 @@ Image develop_display(const Image& beauty, const ColorManager& colors, const Dis
                              : code(light(from[c]) * alpha + light(ground) * (1 - alpha));
       }
     }
-  return out;
-}
-
-void lay_over(Image& picture, const Image& overlay) {
-  for (size_t i = 0; i < picture.pixels.size(); i += 4) {
-    const float left = 1 - overlay.pixels[i + 3];
-    for (size_t c = 0; c < 4; ++c) picture.pixels[i + c] = picture.pixels[i + c] * left + overlay.pixels[i + c];
-  }
-}
-
-Image crop_image(const Image& image, const Crop& window) {
-  if (window.x1 <= window.x0 || window.y1 <= window.y0) return image;
-  const int x0 = std::clamp(window.x0, 0, image.width), x1 = std::clamp(window.x1, x0, image.width);
-  const int y0 = std::clamp(window.y0, 0, image.height), y1 = std::clamp(window.y1, y0, image.height);
-  Image out(x1 - x0, y1 - y0, image.channels);
-  for (int y = y0; y < y1; ++y)
-    std::copy_n(image.at(x0, y), size_t(x1 - x0) * size_t(image.channels), out.at(0, y - y0));
   return out;
 }
 
@@ -123,14 +108,11 @@ void check_can_write(const fs::path& path, bool try_it) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse("it is there and is no regular file");
   if (!try_it) return;
-  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-  if (error) refuse(fmt::format("its folder cannot be made: {}", error.message()));
-  fs::path probe = path;
-  probe.replace_filename(fmt::format(".{}.{}-probe", path.stem().string(), ::getpid()));
-  const int descriptor = ::open(probe.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-  if (descriptor < 0) refuse(std::strerror(errno));
-  ::close(descriptor);
-  fs::remove(probe, error);
+  try {
+    try_to_write(path);
+  } catch (const OperationError& cause) {
+    refuse(cause.what());
+  }
 }
 
 const std::vector<std::string>& layer_names() {
@@ -143,31 +125,71 @@ const std::vector<std::string>& layer_names() {
   return names;
 }
 
+namespace {
+
+/// The window of a film that a file shows, and bands of its rows as they are developed.
+struct Window {
+  const PictureContent& content;
+  const ColorManager& colors;
+  Crop window = clipped(content.crop, content.film->width, content.film->height);
+
+  int width() const { return window.x1 - window.x0; }
+  int height() const { return window.y1 - window.y0; }
+
+  // `rows` as wide as the film, from row `y` of it on.
+  void lay_over(Image& rows, int y) const {
+    if (!content.overlay) return;
+    const float* over = content.overlay->at(0, y);
+    for (size_t i = 0; i < rows.pixels.size(); i += 4) {
+      const float left = 1 - over[i + 3];
+      for (size_t c = 0; c < 4; ++c) rows.pixels[i + c] = rows.pixels[i + c] * left + over[i + c];
+    }
+  }
+
+  Image columns(Image rows) const {
+    if (width() == rows.width) return rows;
+    Image out(width(), rows.height, rows.channels);
+    for (int y = 0; y < rows.height; ++y)
+      std::copy_n(rows.at(window.x0, y), size_t(width()) * size_t(rows.channels), out.at(0, y));
+    return out;
+  }
+
+  std::vector<ImageLayer> layers(int y0, int y1) const {
+    const auto wanted = [&](const std::string& name) {
+      return std::find(content.layers.begin(), content.layers.end(), name) != content.layers.end();
+    };
+    std::vector<ImageLayer> all = develop_layers(*content.film, window.y0 + y0, window.y0 + y1, wanted);
+    lay_over(all[0].image, window.y0 + y0);
+    for (ImageLayer& layer : all) layer.image = columns(std::move(layer.image));
+    return all;
+  }
+
+  Image display(int y0, int y1) const {
+    Image beauty = develop_beauty(*content.film, window.y0 + y0, window.y0 + y1);
+    lay_over(beauty, window.y0 + y0);
+    return columns(
+        develop_display(beauty, colors, content.display, content.exposure_ev, window.y0 + y0, content.film->height));
+  }
+};
+
+}  // namespace
+
 WrittenPicture write_picture(const fs::path& path, const PictureContent& content, const ColorManager& colors) {
+  const Window window{content, colors};
   WrittenPicture written;
   written.path = path;
+  written.width = window.width();
+  written.height = window.height();
   if (is_exr(path)) {
-    std::vector<ImageLayer> layers;
-    for (ImageLayer& layer : develop_layers(*content.film)) {
-      const auto& wanted = content.layers;
-      if (!layer.name.empty() && std::find(wanted.begin(), wanted.end(), layer.name) == wanted.end()) continue;
-      if (layer.name.empty() && content.overlay) lay_over(layer.image, *content.overlay);
-      layer.image = crop_image(layer.image, content.crop);
-      layers.push_back(std::move(layer));
-    }
-    written.layers = int(layers.size());
-    written.width = layers[0].image.width;
-    written.height = layers[0].image.height;
-    written.clamped = write_exr(path, layers, content.attributes, colors.working_chromaticities());
+    written.layers = int(window.layers(0, 0).size());
+    written.clamped = write_exr(
+        path, written.width, written.height, [&](int y0, int y1) { return window.layers(y0, y1); },
+        content.attributes, colors.working_chromaticities());
   } else {
-    Image beauty = develop_beauty(*content.film);
-    if (content.overlay) lay_over(beauty, *content.overlay);
-    const Image image =
-        crop_image(develop_display(beauty, colors, content.display, content.exposure_ev), content.crop);
-    written.width = image.width;
-    written.height = image.height;
     const bool srgb = content.display.display.find("sRGB") != std::string::npos;
-    write_display_image(path, image, content.attributes, 8, srgb);
+    write_display_image(
+        path, written.width, written.height, content.display.transparent ? 4 : 3,
+        [&](int y0, int y1) { return window.display(y0, y1); }, content.attributes, 8, srgb);
   }
   std::error_code error;
   const auto bytes = fs::file_size(path, error);
@@ -175,12 +197,27 @@ WrittenPicture write_picture(const fs::path& path, const PictureContent& content
   return written;
 }
 
-std::vector<WrittenPicture> write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
-                                           const ColorManager& colors, int threads) {
+WrittenPictures write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
+                               const ColorManager& colors, int threads) {
   std::vector<WrittenPicture> written(paths.size());
-  parallel_for(int(paths.size()), threads,
-               [&](int i) { written[size_t(i)] = write_picture(paths[size_t(i)], content, colors); });
-  return written;
+  std::vector<std::string> failures(paths.size());
+  parallel_for(int(paths.size()), threads, [&](int i) {
+    const std::string& path = paths[size_t(i)];
+    try {
+      written[size_t(i)] = write_picture(path, content, colors);
+    } catch (const std::bad_alloc&) {
+      failures[size_t(i)] = path + ": not written: not enough memory";
+    } catch (const std::exception& error) {
+      failures[size_t(i)] = error.what();
+    }
+  });
+  WrittenPictures all;
+  for (size_t i = 0; i < paths.size(); ++i)
+    if (failures[i].empty())
+      all.written.push_back(std::move(written[i]));
+    else
+      all.failures.push_back(std::move(failures[i]));
+  return all;
 }
 
 }  // namespace sateen

@@ -32,12 +32,9 @@ float paper_code(float x, float y);
 /// view changes the ground; edges are not darkened by highlights far beyond white.
 Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
                       float exposure_ev);
-
-/// Lays premultiplied RGBA over premultiplied RGBA of the same size.
-void lay_over(Image& picture, const Image& overlay);
-
-/// The window of an image; the whole where it is empty.
-Image crop_image(const Image& image, const Crop& window);
+/// Of rows from `y0` on of a picture that is `height` high.
+Image develop_display(const Image& beauty, const ColorManager& colors, const DisplaySettings& settings,
+                      float exposure_ev, int y0, int height);
 
 /// Kinds of file by extension, lower case, without the point.
 bool is_exr(const std::filesystem::path& path);
@@ -52,7 +49,7 @@ void check_can_write(const std::filesystem::path& path, bool try_it = true);
 /// Names of the layers beside the beauty, in the order of develop_layers().
 const std::vector<std::string>& layer_names();
 
-/// Writes one file by its extension; what is written tells how many half values had to be clamped.
+/// What a picture file is made of.
 struct PictureContent {
   const Film* film = nullptr;
   Crop crop;                        ///< only this window is written
@@ -65,12 +62,21 @@ struct PictureContent {
 struct WrittenPicture {
   std::filesystem::path path;
   int width = 0, height = 0, layers = 0;  ///< layers: 0 for display formats
-  long long bytes = 0, clamped = 0;
+  long long bytes = 0, clamped = 0;       ///< clamped: values beyond half's range, which were held at its ends
 };
+
+/// Writes one file by its extension, a band of rows at a time (image/bands.h): beside the film it takes the memory of
+/// a few bands. OperationError where it cannot be written.
 WrittenPicture write_picture(const std::filesystem::path& path, const PictureContent& content,
                              const ColorManager& colors);
-/// Several of them, side by side, in the order of `paths`. Where one fails others may not be written.
-std::vector<WrittenPicture> write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
-                                           const ColorManager& colors, int threads);
+
+/// What came of several files.
+struct WrittenPictures {
+  std::vector<WrittenPicture> written;  ///< in the order in which they were asked for
+  std::vector<std::string> failures;    ///< one sentence a file that could not be written
+};
+/// Tries every one of them, side by side.
+WrittenPictures write_pictures(const std::vector<std::string>& paths, const PictureContent& content,
+                               const ColorManager& colors, int threads);
 
 }  // namespace sateen

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -72,10 +73,15 @@ Finished run_sateen(const std::vector<std::string>& words, const Start& start) {
   }
   Finished finished;
   bool signalled = start.signal == 0;
-  auto sent = std::chrono::steady_clock::now();
+  const auto begun = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  };
+  auto sent = begun;
   pollfd pipes[2] = {{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
   while (pipes[0].fd >= 0 || pipes[1].fd >= 0) {
-    poll(pipes, 2, -1);
+    const bool by_time = !signalled && start.signal_seconds > 0;
+    poll(pipes, 2, by_time ? std::max(int(1000 * (start.signal_seconds - elapsed())), 0) : -1);
     for (int i = 0; i < 2; ++i) {
       if (pipes[i].fd < 0 || pipes[i].revents == 0) continue;
       char bytes[4096];
@@ -87,7 +93,9 @@ Finished run_sateen(const std::vector<std::string>& words, const Start& start) {
         (i == 0 ? finished.out : finished.err).append(bytes, size_t(count));
       }
     }
-    if (!signalled && finished.err.find(start.signal_after) != std::string::npos) {
+    const bool now = start.signal_seconds > 0 ? elapsed() >= start.signal_seconds
+                                              : finished.err.find(start.signal_after) != std::string::npos;
+    if (!signalled && now) {
       kill(child, start.signal);
       signalled = true;
       sent = std::chrono::steady_clock::now();

@@ -1,7 +1,11 @@
 #include "base/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +17,8 @@
 #include <stdexcept>
 
 #include "base/error.h"
+#include "base/file_identity.h"
+#include "base/memory.h"
 
 namespace sateen {
 namespace {
@@ -189,6 +195,99 @@ TEST_F(Files, ReadRefusesWhatIsMissingTooLargeOrNoFile) {
   EXPECT_EQ(reading(folder_), folder_.string() + ": is a folder, expected a file");
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_EQ(reading(folder_ / "pipe"), (folder_ / "pipe").string() + ": is not a regular file");
+}
+
+pid_t dead_process() {
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return child;
+}
+
+TEST_F(Files, WhatDeadWritersLeftOfTheSameFileIsSweptAndNothingElse) {
+  const std::string dead = std::to_string(dead_process()), alive = std::to_string(::getppid());
+  const std::vector<std::string> stay{".a." + alive + "-0.png", ".b." + dead + "-0.png", ".a." + dead + "-0.exr",
+                                      ".a." + dead + "-0x.png", ".a." + dead + ".png",   ".a.-" + dead + "-0.png",
+                                      "a." + dead + "-0.png",   ".a." + dead + "-7.png", ".a.0-0.png"};
+  for (const std::string& name : stay) put(name, "");
+  put(".a." + dead + "-0.png", "");
+  put(".a." + dead + "-12.png", "");
+  // Another machine's or container's: its process is not seen here, but its lock is.
+  const int locked = ::open((folder_ / (".a." + dead + "-7.png")).c_str(), O_RDWR);
+  ASSERT_EQ(::flock(locked, LOCK_EX), 0);
+  write_text_whole(folder_ / "a.png", "text");
+  ::close(locked);
+  std::vector<std::string> expected = stay;
+  expected.push_back("a.png");
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(names(), expected);
+}
+
+TEST_F(Files, WritingGoesThroughLinksAndKeepsModes) {
+  fs::create_directory(folder_ / "far");
+  fs::create_symlink("far/b", folder_ / "one");
+  fs::create_symlink("one", folder_ / "two");
+  write_text_whole(folder_ / "two", "first");
+  EXPECT_EQ(get("far/b"), "first");
+  ::chmod((folder_ / "far/b").c_str(), 0604);
+  write_text_whole(folder_ / "two", "second");
+  EXPECT_EQ(get("far/b"), "second");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "one") && fs::is_symlink(folder_ / "two"));
+  struct stat status {};
+  ASSERT_EQ(::stat((folder_ / "far/b").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0604u);
+  fs::create_symlink("ring", folder_ / "ring");
+  EXPECT_THROW(write_text_whole(folder_ / "ring", "x"), OperationError);
+}
+
+TEST_F(Files, ANameAsLongAsNamesMayBeCanBeWritten) {
+  const std::string name = std::string(251, 'n') + ".txt";
+  write_text_whole(folder_ / name, "text");
+  EXPECT_EQ(names(), std::vector<std::string>{name});
+}
+
+TEST_F(Files, AreTheSameByWhateverNameTheyAreCalled) {
+  put("a", "");
+  put("b", "");
+  fs::create_directory(folder_ / "sub");
+  fs::create_symlink("../a", folder_ / "sub/link");
+  fs::create_hard_link(folder_ / "a", folder_ / "hard");
+  fs::create_symlink("new", folder_ / "dangling");
+  EXPECT_TRUE(same_file(folder_ / "a", folder_ / "sub/link"));
+  EXPECT_TRUE(same_file(folder_ / "a", folder_ / "hard"));
+  EXPECT_TRUE(same_file(folder_ / "a", folder_ / "sub/.././a"));
+  EXPECT_TRUE(same_file(folder_ / "new", folder_ / "dangling"));
+  EXPECT_TRUE(same_file(folder_ / "new", folder_ / "sub/../new"));
+  EXPECT_TRUE(same_file(folder_ / "none/new", folder_ / "none/../none/./new"));
+  EXPECT_FALSE(same_file(folder_ / "a", folder_ / "b"));
+  EXPECT_FALSE(same_file(folder_ / "a", folder_ / "new"));
+  EXPECT_FALSE(same_file(folder_ / "new", folder_ / "newer"));
+}
+
+TEST_F(Files, ThatWereReadAreKnown) {
+  put("read.txt", "text");
+  put("not.txt", "text");
+  read_text_file(folder_ / "read.txt", 100);
+  const std::vector<fs::path> all = files_read();
+  EXPECT_EQ(std::count(all.begin(), all.end(), folder_ / "read.txt"), 1);
+  EXPECT_EQ(std::count(all.begin(), all.end(), folder_ / "not.txt"), 0);
+}
+
+TEST(Memory, RoomIsWhatALimitLeavesOver) {
+  const MemoryRoom before = memory_room();
+  EXPECT_GT(before.bytes, 0);
+  EXPECT_LE(before.bytes, memory_limit());
+  rlimit old{};
+  getrlimit(RLIMIT_DATA, &old);
+  rlimit limit = old;
+  const std::int64_t more = 50'000'000;
+  limit.rlim_cur = rlim_t(memory_use().data + more);
+  setrlimit(RLIMIT_DATA, &limit);
+  const MemoryRoom room = memory_room();
+  setrlimit(RLIMIT_DATA, &old);
+  EXPECT_NEAR(double(room.bytes), double(more), 2e6);
+  EXPECT_NE(room.limit.find("ulimit -d"), std::string::npos) << room.limit;
 }
 
 TEST(DataFolder, IsWhatTheEnvironmentSays) {

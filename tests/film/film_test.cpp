@@ -411,6 +411,28 @@ TEST(Layers, GeometryIsAMeanOverTheSamplesThatMetCloth) {
     }
 }
 
+TEST(Layers, BandsOfRowsHaveTheBitsOfTheWhole) {
+  const Film film = random_film();
+  const std::vector<ImageLayer> whole = develop_layers(film);
+  for (const int step : {1, 2, 3, film.height}) {
+    for (int y0 = 0; y0 < film.height; y0 += step) {
+      const int y1 = std::min(y0 + step, film.height);
+      const std::vector<ImageLayer> band = develop_layers(film, y0, y1, [](const std::string&) { return true; });
+      ASSERT_EQ(band.size(), whole.size());
+      for (size_t l = 0; l < band.size(); ++l) {
+        ASSERT_EQ(band[l].image.height, y1 - y0);
+        const Image& all = whole[l].image;
+        const std::vector<float> meant(all.at(0, y0), all.at(0, y0) + band[l].image.pixels.size());
+        EXPECT_EQ(band[l].image.pixels, meant) << whole[l].name << " from row " << y0;
+      }
+    }
+  }
+  const auto only_p = [](const std::string& name) { return name == "P"; };
+  const std::vector<ImageLayer> chosen = develop_layers(film, 0, 1, only_p);
+  ASSERT_EQ(chosen.size(), 2u);
+  EXPECT_EQ(chosen[1].name, "P");
+}
+
 TEST(Layers, BeautyComesFirstWithAlphaAndAFilmWithoutLayersHasOnlyErrorAndSamplesBeside) {
   Film film(2, 1, false);
   film.pixels[0] = pixel_of({Color(2), Color(4)});

@@ -133,6 +133,77 @@ TEST(WriteFiles, GiveTheSameBytesForTheSamePicture) {
         << extension;
 }
 
+TEST(WriteFiles, HaveTheSameBytesInOneBandOrInMany) {
+  const ScratchFolder folder;
+  // 700 rows are several bands of either kind; rows that are asked for are counted.
+  const Image image = noise(600, 700, 4, 1);
+  int asked = 0;
+  const auto rows = [&](int y0, int y1) {
+    ++asked;
+    Image part(image.width, y1 - y0, 4);
+    std::copy_n(image.at(0, y0), part.pixels.size(), part.pixels.begin());
+    return part;
+  };
+  write_exr(folder.path / "a.exr", {layer("", {"R", "G", "B", "A"}, false, image)}, {}, ap1_chromaticities);
+  write_exr(
+      folder.path / "b.exr", 600, 700,
+      [&](int y0, int y1) {
+        return std::vector{layer("", {"R", "G", "B", "A"}, false, rows(y0, y1))};
+      },
+      {}, ap1_chromaticities);
+  EXPECT_GE(asked, 4);
+  asked = 0;
+  for (const char* extension : {".png", ".jpg", ".tif"}) {
+    write_display_image(folder.path / (std::string("a") + extension), image);
+    write_display_image(folder.path / (std::string("b") + extension), 600, 700, 4, rows);
+  }
+  EXPECT_GE(asked, 12);
+  for (const char* extension : {".exr", ".png", ".jpg", ".tif"})
+    EXPECT_TRUE(read_bytes(folder.path / (std::string("a") + extension)) ==
+                read_bytes(folder.path / (std::string("b") + extension)))
+        << extension;
+  ImageFileInfo info;
+  const Image back = read_image(folder.path / "b.exr", {}, &info);
+  for (size_t c = 0; c < 4; ++c) {
+    const auto name = std::string(1, "RGBA"[c]);
+    const auto at =
+        size_t(std::find(info.channel_names.begin(), info.channel_names.end(), name) - info.channel_names.begin());
+    for (size_t i = 0; i < image.pixels.size() / 4; ++i) ASSERT_EQ(back.pixels[4 * i + at], image.pixels[4 * i + c]);
+  }
+}
+
+TEST(WriteFiles, RowsThatDifferWhenTheyAreMadeAgainAreNoticed) {
+  const ScratchFolder folder;
+  int times = 0;
+  const auto rows = [&](int y0, int y1) {
+    Image part(64, y1 - y0, 3);
+    for (float& v : part.pixels) v = ++times > 20'000 ? 0.5f : 0.25f;
+    return part;
+  };
+  EXPECT_THROW(write_display_image(folder.path / "a.png", 64, 100, 3, rows), OperationError);
+  EXPECT_EQ(files_in(folder.path), 0);
+}
+
+TEST(ImageDecodes, TellsAWholeFileFromOneThatIsCutShort) {
+  const ScratchFolder folder;
+  const Image image = noise(300, 200, 3, 1);
+  for (const char* name : {"a.exr", "a.png", "a.tif"}) {
+    const fs::path path = folder.path / name;
+    if (path.extension() == ".exr")
+      write_exr(path, {layer("", {"R", "G", "B"}, false, image)}, {}, ap1_chromaticities);
+    else
+      write_display_image(path, image);
+    EXPECT_TRUE(image_decodes(path)) << name;
+    fs::resize_file(path, fs::file_size(path) * 2 / 3);
+    bool whole = false;
+    try {
+      whole = image_decodes(path);
+    } catch (const InputError&) {
+    }
+    EXPECT_FALSE(whole) << name;
+  }
+}
+
 TEST(WriteDisplayImage, KeepsCodesAlphaAndAttributesInEveryLosslessFormat) {
   const ScratchFolder folder;
   const Attributes attributes{{"sateen:spp", 64},

@@ -28,6 +28,7 @@ TEST(Metadata, HasNoAttributeThatTheListLacks) {
   job.references = true;
   job.candidates_reason = "the pilot met no noise";
   job.first_sample = 8;
+  job.timings = true;
   job.render.crop = {1, 2, 9, 8};
   job.render.stop = {64, 0.01, 30};
   RenderResult result;

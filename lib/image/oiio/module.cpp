@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/missing_file.h"
 #include "image/attributes.h"
+#include "image/bands.h"
 #include "image/dither.h"
 
 namespace sateen {
@@ -162,46 +163,84 @@ Attributes read_texts(const fs::path& path) {
   return attributes;
 }
 
-template <class Code>
-std::vector<Code> quantise(const Image& image, bool dithered) {
-  constexpr float largest = float(std::numeric_limits<Code>::max());
-  std::vector<Code> codes(image.pixels.size());
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c) {
-        const size_t i = (size_t(y) * size_t(image.width) + size_t(x)) * size_t(image.channels) + size_t(c);
-        const float value = image.pixels[i] > 0 ? std::min(image.pixels[i], 1.0f) : 0.0f;
-        const float threshold = dithered && c < 3 ? dither_threshold(x, y, c) : 0.5f;
-        codes[i] = Code(std::min(value * largest + threshold, largest));
-      }
-  return codes;
+bool decodes(const fs::path& path) {
+  const Input input = open(path);
+  seek_flat_part(*input, path);
+  const OIIO::ImageSpec& spec = input->spec();
+  // In the file's own kind of number: what is asked is whether the pixels are there.
+  const OIIO::stride_t row = OIIO::stride_t(spec.scanline_bytes(true));
+  const int step = spec.tile_width > 0 ? spec.tile_height : band_rows(row);
+  std::vector<char> band(size_t(row) * size_t(step));
+  for (int y = 0; y < spec.height; y += step) {
+    const int y0 = spec.y + y, y1 = spec.y + std::min(y + step, spec.height);
+    const bool read = spec.tile_width > 0
+                          ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, y0, y1, 0, 1, 0, spec.nchannels,
+                                              OIIO::TypeDesc::UNKNOWN, band.data())
+                          : input->read_scanlines(input->current_subimage(), 0, y0, y1, 0, 0, spec.nchannels,
+                                                  OIIO::TypeDesc::UNKNOWN, band.data());
+    if (!read || !input->geterror().empty()) return false;
+  }
+  return true;
 }
+
+/// A display picture as the file holds it: alpha left out where the format has none, real numbers as codes.
+template <class Code>
+struct CodeRows {
+  const DisplayPicture& picture;
+  int channels;
+  bool dithered;
+
+  size_t row() const { return size_t(picture.width) * size_t(channels); }
+  int step() const { return band_rows(std::int64_t(row() * sizeof(float))); }
+
+  std::vector<Code> at(int y0, int y1) const {
+    constexpr float largest = float(std::numeric_limits<Code>::max());
+    const Image image = picture.rows(y0, y1);
+    if (image.width != picture.width || image.height != y1 - y0 || image.channels != picture.channels)
+      throw OperationError("rows of another size than the picture");
+    std::vector<Code> codes(row() * size_t(y1 - y0));
+    Code* to = codes.data();
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < image.width; ++x)
+        for (int c = 0; c < channels; ++c) {
+          const float v = image.at(x, y - y0)[c], value = v > 0 ? std::min(v, 1.0f) : 0.0f;
+          const float threshold = dithered && c < 3 ? dither_threshold(x, y, c) : 0.5f;
+          *to++ = Code(std::min(value * largest + threshold, largest));
+        }
+    return codes;
+  }
+};
 
 // Lossless files must give back every code; a JPEG, which may not, must give back the picture.
 template <class Code>
-void verify_display(const fs::path& path, const OIIO::ImageSpec& meant, const std::vector<Code>& codes,
-                    OIIO::TypeDesc type, bool lossless) {
+void verify_display(const fs::path& path, const CodeRows<Code>& rows, OIIO::TypeDesc type, bool lossless) {
   OIIO::ImageSpec as_stored;
   as_stored.attribute("oiio:UnassociatedAlpha", 1);
   Input input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) throw OperationError("the file written cannot be read back" + because(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width != meant.width || spec.height != meant.height || spec.nchannels != meant.nchannels)
+  const int height = rows.picture.height;
+  if (spec.width != rows.picture.width || spec.height != height || spec.nchannels != rows.channels)
     throw OperationError("the file written has another size than the picture");
-  std::vector<Code> back(codes.size());
-  std::string error;
-  if (!read_pixels(*input, type, back, error))
-    throw OperationError("the pixels written cannot be read back" + because(error));
-  if (lossless && back != codes) throw OperationError("the pixels read back differ from those written");
   double difference = 0;
-  for (size_t i = 0; i < codes.size(); ++i) difference += std::abs(double(back[i]) - double(codes[i]));
-  if (difference > 0.1 * double(std::numeric_limits<Code>::max()) * double(codes.size()))
+  for (int y0 = 0; y0 < height; y0 += rows.step()) {
+    const int y1 = std::min(y0 + rows.step(), height);
+    const std::vector<Code> codes = rows.at(y0, y1);
+    std::vector<Code> back(codes.size());
+    const bool read = input->read_scanlines(0, 0, y0, y1, 0, 0, spec.nchannels, type, back.data());
+    const std::string error = input->geterror();
+    if (!read || !error.empty()) throw OperationError("the pixels written cannot be read back" + because(error));
+    if (lossless && back != codes) throw OperationError("the pixels read back differ from those written");
+    for (size_t i = 0; i < codes.size(); ++i) difference += std::abs(double(back[i]) - double(codes[i]));
+  }
+  const double largest = double(std::numeric_limits<Code>::max());
+  if (difference > 0.1 * largest * double(rows.row()) * double(height))
     throw OperationError("the picture read back differs from the one written");
 }
 
 template <class Code>
-void write_codes(const fs::path& path, const OIIO::ImageSpec& spec, const std::vector<Code>& codes,
-                 OIIO::TypeDesc type, bool lossless) {
+void write_codes(const fs::path& path, const OIIO::ImageSpec& spec, const CodeRows<Code>& rows, OIIO::TypeDesc type,
+                 bool lossless) {
   write_file_whole(
       path,
       [&](const fs::path& temporary) {
@@ -209,18 +248,24 @@ void write_codes(const fs::path& path, const OIIO::ImageSpec& spec, const std::v
         if (!output) throw OperationError("no writer for this kind of file" + because(OIIO::geterror()));
         if (!output->open(temporary.string(), spec))
           throw OperationError("cannot be opened for writing" + because(output->geterror()));
-        // A PNG on a full disk reports success from both calls and only leaves a text behind.
-        const bool wrote = output->write_image(type, codes.data());
-        const std::string write_error = output->geterror();
+        // A PNG on a full disk reports success from all calls and only leaves a text behind.
+        bool wrote = true;
+        std::string write_error;
+        for (int y0 = 0; y0 < spec.height && wrote && write_error.empty(); y0 += rows.step()) {
+          const int y1 = std::min(y0 + rows.step(), spec.height);
+          wrote = output->write_scanlines(y0, y1, 0, type, rows.at(y0, y1).data());
+          write_error = output->geterror();
+        }
         const bool closed = output->close();
         const std::string close_error = output->geterror();
         if (!wrote || !closed || !write_error.empty() || !close_error.empty())
           throw OperationError("writing failed" + because(write_error.empty() ? close_error : write_error));
       },
-      [&](const fs::path& temporary) { verify_display(temporary, spec, codes, type, lossless); });
+      [&](const fs::path& temporary) { verify_display(temporary, rows, type, lossless); });
 }
 
-void write_display(const fs::path& path, const Image& image, const Attributes& attributes, int bits, bool srgb) {
+void write_display(const fs::path& path, const DisplayPicture& picture, const Attributes& attributes, int bits,
+                   bool srgb) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
   const bool png = extension == ".png", jpeg = extension == ".jpg" || extension == ".jpeg";
@@ -232,18 +277,12 @@ void write_display(const fs::path& path, const Image& image, const Attributes& a
     refuse(path, fmt::format("{} bits asked, expected 8 or 16", bits), {}, InputError::Kind::wrong);
   if (jpeg && bits == 16)
     refuse(path, "JPEG holds 8 bits, 16 asked", "write a .png or .tif", InputError::Kind::wrong);
-  if (image.width < 1 || image.height < 1 || (image.channels != 3 && image.channels != 4))
+  if (picture.width < 1 || picture.height < 1 || (picture.channels != 3 && picture.channels != 4))
     throw OperationError(fmt::format("{}: not written: the picture is {} x {} with {} channels, expected 3 or 4",
-                                     path.string(), image.width, image.height, image.channels));
-  Image opaque;
-  if (jpeg && image.channels == 4) {
-    opaque = Image(image.width, image.height, 3);
-    for (size_t i = 0; i < opaque.pixels.size(); ++i) opaque.pixels[i] = image.pixels[i / 3 * 4 + i % 3];
-  }
-  const Image& source = opaque.pixels.empty() ? image : opaque;
-
+                                     path.string(), picture.width, picture.height, picture.channels));
+  const int channels = jpeg ? 3 : picture.channels;
   const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16;
-  OIIO::ImageSpec spec(source.width, source.height, source.channels, type);
+  OIIO::ImageSpec spec(picture.width, picture.height, channels, type);
   spec.attribute("oiio:UnassociatedAlpha", 1);  // the numbers as given, not divided by alpha on the way
   if (srgb) spec.attribute("oiio:ColorSpace", "sRGB");
   if (!srgb) spec.attribute("oiio:ColorSpace", "Rec709");
@@ -258,9 +297,9 @@ void write_display(const fs::path& path, const Image& image, const Attributes& a
   if (const auto found = attributes.find("Software"); found != attributes.end())
     if (const auto* text = std::get_if<std::string>(&found->second)) spec.attribute("Software", *text);
   if (bits == 8)
-    write_codes(path, spec, quantise<std::uint8_t>(source, !jpeg), type, !jpeg);
+    write_codes(path, spec, CodeRows<std::uint8_t>{picture, channels, !jpeg}, type, !jpeg);
   else
-    write_codes(path, spec, quantise<std::uint16_t>(source, false), type, true);
+    write_codes(path, spec, CodeRows<std::uint16_t>{picture, channels, false}, type, true);
 }
 
 }  // namespace
@@ -269,7 +308,7 @@ void write_display(const fs::path& path, const Image& image, const Attributes& a
 
 extern "C" const sateen::ImageFileFunctions* sateen_image_file_functions() {
   static const sateen::ImageFileFunctions functions{
-      sateen::read_info,          sateen::read_pixels,   sateen::read_texts,        sateen::write_display,
-      sateen::oiio::make_texture, sateen::oiio::look_up, sateen::oiio::free_texture};
+      sateen::read_info, sateen::read_pixels,        sateen::read_texts,    sateen::write_display,
+      sateen::decodes,   sateen::oiio::make_texture, sateen::oiio::look_up, sateen::oiio::free_texture};
   return &functions;
 }

@@ -1,0 +1,83 @@
+#include "memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "console.h"
+#include "film/develop.h"
+#include "render/memory.h"
+
+namespace sateen::app {
+
+namespace {
+
+bool writes_exr(const PictureFlags& f) {
+  return f.outputs.empty() ||
+         std::any_of(f.outputs.begin(), f.outputs.end(), [](const auto& o) { return is_exr(o); });
+}
+
+PictureSize size_of(const PictureFlags& f, bool with_layers) {
+  PictureSize size;
+  size.width = f.scene.width;
+  size.height = f.scene.height;
+  size.layers = with_layers;
+  size.references = f.stage.references;
+  size.outputs = f.outputs;
+  size.threads = thread_count(f.render.threads);
+  if (!writes_exr(f)) return size;
+  const Film smallest(1, 1, with_layers);
+  const auto wanted = [&](const std::string& name) {
+    return std::find(f.layer_list.begin(), f.layer_list.end(), name) != f.layer_list.end();
+  };
+  for (const ImageLayer& layer : develop_layers(smallest, 0, 1, wanted)) size.exr_channels += layer.image.channels;
+  return size;
+}
+
+/// What helps, by how much each takes.
+std::string remedy(const PictureFlags& f, const PictureSize& size, std::int64_t bytes, std::int64_t room) {
+  std::vector<std::string> ways;
+  if (size.layers) {
+    PictureSize less = size;
+    less.layers = false;
+    less.exr_channels = 4;
+    ways.push_back(fmt::format("--aov none takes {} less", memory_text(bytes - picture_bytes(less))));
+  }
+  const double share = std::sqrt(std::max(double(room), 0.0) / double(bytes) * 0.95);
+  if (share > 0.02)
+    ways.push_back(fmt::format("--res {} {} fits", int(f.scene.width * share), int(f.scene.height * share)));
+  return ways.empty() ? "a lower --level, a smaller map (--map-size) or more memory"
+                      : fmt::format("{}", fmt::join(ways, "; "));
+}
+
+[[noreturn]] void refuse(const PictureFlags& f, const PictureSize& size, std::int64_t bytes, std::int64_t held,
+                         const MemoryRoom& room) {
+  throw InputError(fmt::format("--res {} {} takes {} to render and to write{}, and {}, of which {} are left",
+                               f.scene.width, f.scene.height, memory_text(bytes),
+                               held > 0 ? fmt::format(" beside a scene of {}", memory_text(held)) : "", room.limit,
+                               memory_text(std::max<std::int64_t>(room.bytes, 0))),
+                   remedy(f, size, bytes, room.bytes));
+}
+
+}  // namespace
+
+void check_film_memory(const PictureFlags& f) {
+  const PictureSize size = size_of(f, writes_exr(f) && !f.layer_list.empty());
+  const MemoryRoom room = memory_room();
+  if (film_bytes(size) > room.bytes) refuse(f, size, picture_bytes(size), 0, room);
+}
+
+void check_picture_memory(const PictureFlags& f, bool with_layers, bool film_there) {
+  const PictureSize size = size_of(f, with_layers);
+  const MemoryRoom room = memory_room();
+  const std::int64_t bytes = picture_bytes(size) - (film_there ? film_bytes(size) : 0);
+  const MemoryUse use = memory_use();
+  print_detail(fmt::format("memory: {} now, {} at most so far, {} foreseen", memory_text(use.resident),
+                           memory_text(use.peak), memory_text(std::max(use.resident + bytes, use.peak))));
+  if (bytes > room.bytes) refuse(f, size, bytes, use.resident, room);
+}
+
+}  // namespace sateen::app
