@@ -49,9 +49,10 @@ using Attributes = std::map<std::string, Attribute>;  ///< "sateen:spp" ...
 void set_exr_threads(int threads);
 
 /// Writes an OpenEXR file whole or not at all (base/files), reads it back and compares before it takes its name.
-/// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header.
+/// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header,
+/// and no chromaticities where they are not known.
 long long write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,
-                    const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
+                    const Attributes& attributes, const std::optional<ColorManager::Chromaticities>& chromaticities);
 
 /// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.
 /// Dithered to 8 bit (png, tif) with a fixed blue-noise pattern so that smooth satin does not band. Verified like
