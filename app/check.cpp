@@ -151,6 +151,7 @@ void check_map(Finding& f) {
   f.facts.push_back(fmt::format("{} x {}, {}", report.width, report.height, space));
   f.facts.push_back(fmt::format("{:.1f} stops, largest over mean luminance {:.4g}, metered exposure {:+.2f} EV",
                                 report.stops, report.largest_over_mean, report.metered_ev));
+  f.notices = colors.warnings();
   for (const std::string& notice : environment_notices(map)) f.notices.push_back(notice);
   const std::string extension = lower_extension(f.path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")

@@ -72,6 +72,7 @@ int env_inspect(const std::vector<std::string>& words) {
                   "azimuth 0 is the camera's side, 90 the right of the picture");
   if (!command.parse(words)) return done;
   const ColorManager colors(ocio, working);
+  for (const std::string& warning : colors.warnings()) print_warning(warning);
   JsonWriter w;
   w.open_object().key("maps").open_list();
   std::string text;

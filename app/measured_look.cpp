@@ -34,12 +34,14 @@ MeasuredLook measure_look(const Look& look, bool with_table, const std::string& 
   parts.threads = thread_count(0);
   if (look.textures.empty() && look.pattern_look.empty()) {
     measured.fabric = compile_fabric(look, convert, parts);
+    if (colors) measured.warnings = colors->warnings();
     return measured;
   }
   colors = std::make_unique<ColorManager>(ocio, measured.space);
   CompiledSide side = compile_side(look, *colors, parts);
   measured.fabric = std::move(side.fabric);
-  measured.warnings = std::move(side.warnings);
+  measured.warnings = colors->warnings();
+  measured.warnings.insert(measured.warnings.end(), side.warnings.begin(), side.warnings.end());
   if (side.color_error >= 0.005f)
     measured.warnings.push_back(fmt::format(
         "{}: textures of color are solved for the means of the textures of numbers; where one of those is at the end "

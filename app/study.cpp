@@ -117,6 +117,7 @@ int run_study(const std::vector<std::string>& words) {
   check_names(study);
   check_report_folder(flags.folder, {"index.html", "study.csv", "study.json", "study.txt"}, study_inputs(study));
   const ColorManager colors;
+  for (const std::string& warning : colors.warnings()) print_warning(warning);
   WorkProgress progress(voice.verbosity != Verbosity::quiet);
   const StopOnSignal stop_on_signal;
   const StudyResult result = sateen::run_study(

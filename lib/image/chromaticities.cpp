@@ -14,6 +14,11 @@ const ColorManager::Chromaticities ap0_chromaticities{
     {0.7347f, 0.2653f}, {0.0f, 1.0f}, {0.0001f, -0.0770f}, {0.32168f, 0.33767f}};
 
 namespace {
+const ColorManager::Chromaticities rec2020_chromaticities{
+    {0.708f, 0.292f}, {0.170f, 0.797f}, {0.131f, 0.046f}, {0.3127f, 0.3290f}};
+const ColorManager::Chromaticities display_p3_chromaticities{
+    {0.680f, 0.320f}, {0.265f, 0.690f}, {0.150f, 0.060f}, {0.3127f, 0.3290f}};
+
 using Vector = std::array<double, 3>;
 
 Vector transform(const Matrix3& m, const Vector& v) {
@@ -99,8 +104,27 @@ Matrix3 to_aces2065_1(const ColorManager::Chromaticities& space) {
   return multiply(inverse(rgb_to_xyz(ap0_chromaticities)), multiply(adapt, to_xyz));
 }
 
+Matrix3 xyz_to_aces2065_1(const std::array<double, 3>& white) {
+  return multiply(inverse(rgb_to_xyz(ap0_chromaticities)), adaptation(white, white_xyz(ap0_chromaticities.white)));
+}
+
+const char* name_of(const ColorManager::Chromaticities& space) {
+  const auto same = [&](const ColorManager::Chromaticities& known) {
+    const float* const found[4] = {space.red, space.green, space.blue, space.white};
+    const float* const wanted[4] = {known.red, known.green, known.blue, known.white};
+    for (size_t i = 0; i < 8; ++i)
+      if (!(std::abs(found[i / 2][i % 2] - wanted[i / 2][i % 2]) < 1e-4f)) return false;
+    return true;
+  };
+  return same(rec709_chromaticities) ? "lin_rec709"
+         : same(ap1_chromaticities)  ? "acescg"
+         : same(ap0_chromaticities)  ? "aces2065-1"
+                                     : nullptr;
+}
+
 ColorManager::Chromaticities chromaticities_of(const Matrix3& to_aces) {
-  for (const auto* known : {&rec709_chromaticities, &ap1_chromaticities, &ap0_chromaticities})
+  for (const auto* known : {&rec709_chromaticities, &ap1_chromaticities, &ap0_chromaticities, &rec2020_chromaticities,
+                            &display_p3_chromaticities})
     if (near(to_aces, to_aces2065_1(*known))) return *known;
   const Matrix3 xyz = multiply(rgb_to_xyz(ap0_chromaticities), to_aces);
   ColorManager::Chromaticities result = ap0_chromaticities;

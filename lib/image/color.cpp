@@ -1,31 +1,24 @@
 #include "image/color.h"
 
-#include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <mutex>
-#include <sstream>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "image/built_in_config.h"
 #include "image/chromaticities.h"
+#include "image/color_config.h"
 
 namespace sateen {
 
 namespace ocio = OCIO_NAMESPACE;
 
 namespace {
-// Where the same light is known on both sides of a pair of configs: the project's own space and the foreign one.
-struct Bridge {
-  std::string own, foreign, how;
-};
-
 // A colour space and the config it lives in.
 struct Space {
   bool own = true;
@@ -34,51 +27,6 @@ struct Space {
 };
 
 using Steps = std::vector<ocio::ConstCPUProcessorRcPtr>;
-
-std::string first_line(const char* text) {
-  const std::string all = text;
-  return all.substr(0, all.find('\n'));
-}
-
-// Every call into OpenColorIO may throw its own exception; the sentence in front is ours.
-template <class Call>
-auto guarded(const std::string& what, Call&& call) {
-  try {
-    return call();
-  } catch (const ocio::Exception& error) {
-    throw InputError(fmt::format("{} (OpenColorIO: {})", what, first_line(error.what())));
-  }
-}
-
-ocio::ConstConfigRcPtr built_in() {
-  std::istringstream text{std::string(built_in_config_text)};
-  return ocio::Config::CreateFromStream(text);
-}
-
-ocio::ConstConfigRcPtr read_config(const std::string& path, const std::string& origin) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code))
-    throw InputError(fmt::format("{}: no such colour config (named by {})", path, origin),
-                     "give the path of an existing config.ocio, or leave it out to use the built-in config",
-                     InputError::Kind::unreadable);
-  try {
-    ocio::ConstConfigRcPtr config = ocio::Config::CreateFromFile(path.c_str());
-    config->validate();
-    return config;
-  } catch (const ocio::Exception& error) {
-    throw InputError(fmt::format("{}: the colour config named by {} is not usable (OpenColorIO: {})", path, origin,
-                                 first_line(error.what())),
-                     {}, InputError::Kind::unreadable);
-  }
-}
-
-Bridge bridge_to(const ocio::Config& foreign) {
-  if (foreign.hasRole("aces_interchange")) return {"aces2065-1", "aces_interchange", "its role aces_interchange"};
-  for (const char* name : {"XYZ", "cie_xyz_d65_interchange"})
-    if (foreign.getColorSpace(name))
-      return {"cie_xyz_d65", name, fmt::format("its space {}, taken as CIE XYZ with a D65 white", name)};
-  return {"lin_rec709", "scene_linear", "the assumption that its scene_linear is linear Rec.709"};
-}
 }  // namespace
 
 struct ColorManager::State {
@@ -86,6 +34,7 @@ struct ColorManager::State {
   Bridge bridge;
   Space working;
   std::string text;
+  std::vector<std::string> warnings;
   mutable std::mutex lock;
   mutable std::map<std::pair<Space, Space>, Steps> known;
 
@@ -107,14 +56,14 @@ struct ColorManager::State {
     const std::lock_guard guard(lock);
     auto& steps = known[{from, to}];
     if (!steps.empty()) return steps;
-    const ocio::ConstProcessorRcPtr processor =
-        guarded(fmt::format("cannot convert from {} to {} under {}", from.name, to.name, text), [&] {
-          if (from.own == to.own) return config_of(from)->getProcessor(from.name.c_str(), to.name.c_str());
-          const auto name = [&](const Space& s) { return (s.own ? bridge.own : bridge.foreign).c_str(); };
-          return ocio::Config::GetProcessorFromConfigs(config_of(from), from.name.c_str(), name(from), config_of(to),
-                                                       to.name.c_str(), name(to));
-        });
-    steps.push_back(processor->getDefaultCPUProcessor());
+    steps.push_back(guarded(fmt::format("cannot convert from {} to {} under {}", from.name, to.name, text), [&] {
+      if (from.own == to.own)
+        return config_of(from)->getProcessor(from.name.c_str(), to.name.c_str())->getDefaultCPUProcessor();
+      const auto name = [&](const Space& s) { return (s.own ? bridge.own : bridge.foreign).c_str(); };
+      return ocio::Config::GetProcessorFromConfigs(config_of(from), from.name.c_str(), name(from), config_of(to),
+                                                   to.name.c_str(), name(to))
+          ->getDefaultCPUProcessor();
+    }));
     return steps;
   }
 };
@@ -140,18 +89,16 @@ Color run(const Steps& steps, Color value) {
 
 ColorManager::ColorManager(const std::string& path, const std::string& working) : state_(std::make_unique<State>()) {
   State& s = *state_;
-  s.own = guarded("the built-in colour config is refused", built_in);
+  const ocio::ConfigRcPtr own = guarded("the built-in colour config is refused", built_in_color_config);
+  s.own = own;
   const char* environment = std::getenv("OCIO");
   const bool from_environment = path.empty() && environment && *environment;
   if (from_environment || !(path.empty() || path == built_in_config_name)) {
     const std::string origin = from_environment ? "$OCIO" : "--ocio";
     const std::string file = from_environment ? environment : path;
-    s.config = read_config(file, origin);
-    s.bridge = bridge_to(*s.config);
+    s.config = read_color_config(file, origin, s.warnings);
+    s.bridge = find_bridge(*s.config, file, *own, s.warnings);
     s.text = fmt::format("{} (from {}, joined to the project's spaces by {})", file, origin, s.bridge.how);
-    if (!s.config->hasRole("scene_linear"))
-      throw InputError(fmt::format("{}: has no role scene_linear, which every renderer needs", file), {},
-                       InputError::Kind::unreadable);
   } else {
     s.config = s.own;
     s.text = "the built-in config";
@@ -169,6 +116,10 @@ ColorManager::ColorManager(ColorManager&&) noexcept = default;
 
 std::string ColorManager::description() const {
   return state_->text;
+}
+
+const std::vector<std::string>& ColorManager::warnings() const {
+  return state_->warnings;
 }
 
 std::string ColorManager::working_space() const {
@@ -249,12 +200,12 @@ void ColorManager::to_display(Image& image, const std::string& display, const st
     source = {false, "scene_linear"};
     run(s.convert(s.working, source), image);
   }
-  const ocio::ConstProcessorRcPtr processor =
+  const ocio::ConstCPUProcessorRcPtr processor =
       guarded(fmt::format("the view {} of the display {} cannot be used under {}", view, display, s.text), [&] {
-        return s.config->getProcessor(source.name.c_str(), display.c_str(), view.c_str(),
-                                      ocio::TRANSFORM_DIR_FORWARD);
+        return s.config->getProcessor(source.name.c_str(), display.c_str(), view.c_str(), ocio::TRANSFORM_DIR_FORWARD)
+            ->getDefaultCPUProcessor();
       });
-  run({processor->getDefaultCPUProcessor()}, image);
+  run({processor}, image);
   for (size_t i = 0; i < count; ++i)
     for (int c = 0; c < colours; ++c) {
       float& value = image.pixels[i * size_t(image.channels) + size_t(c)];
@@ -262,7 +213,8 @@ void ColorManager::to_display(Image& image, const std::string& display, const st
     }
 }
 
-ColorManager::Chromaticities ColorManager::working_chromaticities() const {
+std::optional<ColorManager::Chromaticities> ColorManager::working_chromaticities() const {
+  if (!state_->bridge.known && !state_->working.own) return std::nullopt;
   const Steps steps = state_->convert(state_->working, {true, "aces2065-1"});
   Matrix3 to_aces;
   for (int column = 0; column < 3; ++column) {
@@ -275,17 +227,21 @@ ColorManager::Chromaticities ColorManager::working_chromaticities() const {
 }
 
 Color ColorManager::luminance_weights() const {
+  const Steps steps = state_->convert(state_->working, {true, "cie_xyz_d65"});
   Color weights;
   for (int channel = 0; channel < 3; ++channel) {
     Color unit(0, 0, 0);
     unit[channel] = 1;
-    weights[channel] = from_working(unit, "cie_xyz_d65").y;
+    weights[channel] = run(steps, unit).y;
   }
   return weights;
 }
 
 void ColorManager::chromaticities_to_working(Image& image, const Chromaticities& from) const {
   if (image.channels < 3) return;
+  // Where the config in force has the space itself, its numbers and its name mean the same light.
+  if (const char* name = name_of(from); name && state_->foreign() && state_->config->getColorSpace(name))
+    return to_working(image, name);
   const Matrix3 m = to_aces2065_1(from);
   const size_t count = size_t(image.width) * size_t(image.height);
   for (size_t i = 0; i < count; ++i) {

@@ -101,15 +101,16 @@ Planes planes_of(std::vector<ImageLayer>& layers, long long& clamped) {
 }
 
 Imf::Header header_of(int width, int height, const std::vector<ImageLayer>& layers, const Attributes& attributes,
-                      const ColorManager::Chromaticities& c) {
+                      const std::optional<ColorManager::Chromaticities>& c) {
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.zipCompressionLevel() = zip_level;
   for (const ImageLayer& layer : layers)
     for (size_t i = 0; i < layer.channels.size(); ++i)
       header.channels().insert(channel_name(layer, i), Imf::Channel(layer.half ? Imf::HALF : Imf::FLOAT));
-  Imf::addChromaticities(header, Imf::Chromaticities({c.red[0], c.red[1]}, {c.green[0], c.green[1]},
-                                                     {c.blue[0], c.blue[1]}, {c.white[0], c.white[1]}));
+  if (c)
+    Imf::addChromaticities(header, Imf::Chromaticities({c->red[0], c->red[1]}, {c->green[0], c->green[1]},
+                                                       {c->blue[0], c->blue[1]}, {c->white[0], c->white[1]}));
   for (const auto& [name, value] : attributes) {
     if (const int* i = std::get_if<int>(&value)) header.insert(name, Imf::IntAttribute(*i));
     if (const double* d = std::get_if<double>(&value)) header.insert(name, Imf::DoubleAttribute(*d));
@@ -202,7 +203,7 @@ void set_exr_threads(int threads) {
 }
 
 long long write_exr(const fs::path& path, int width, int height, const LayerRows& rows, const Attributes& attributes,
-                    const ColorManager::Chromaticities& chromaticities) {
+                    const std::optional<ColorManager::Chromaticities>& chromaticities) {
   long long clamped = 0;
   write_file_whole(path, [&](const fs::path& temporary) {
     if (width < 1 || height < 1) throw OperationError(fmt::format("the picture is {} x {}", width, height));

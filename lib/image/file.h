@@ -13,7 +13,7 @@
 
 namespace sateen {
 
-/// What a picture file says of itself before its pixels are read.
+/// What a picture file says of itself before its pixels are read; sizes as it is to be shown.
 struct ImageFileInfo {
   int width = 0, height = 0, channels = 0;
   std::vector<std::string> channel_names;
@@ -21,6 +21,9 @@ struct ImageFileInfo {
   std::string pixel_type;   ///< "half", "float", "uint8" ...
   std::string color_space;  ///< as the file states it; empty where it does not
   std::optional<ColorManager::Chromaticities> chromaticities;
+  int alpha_channel = -1;  ///< -1: there is none
+  bool colors_times_alpha =
+      false;  ///< the colours of the pixels are multiplied by it (EXR, TIFF with associated alpha)
 };
 
 struct ImageLimits {
@@ -32,8 +35,13 @@ ImageFileInfo read_image_info(const std::filesystem::path& path);
 
 /// All channels as float. Only regular files within `limits`; InputError says what was found and expected.
 /// Deep, tiled, mip-mapped and multi-part files: the first flat part's full resolution; data windows are placed
-/// in their display window (black outside).
+/// in their display window (black outside). Colours beside an alpha are as the file has them; an orientation tag is
+/// obeyed (see apply_orientation).
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {}, ImageFileInfo* info = nullptr);
+
+/// The picture as it is to be shown, from the one that is stored. `orientation`: 1 to 8 as TIFF and EXIF count them;
+/// any other is taken as 1, upright. 5 to 8 swap width and height.
+Image apply_orientation(Image image, int orientation);
 
 /// One named group of channels of an OpenEXR file.
 struct ImageLayer {
@@ -51,9 +59,10 @@ using Attributes = std::map<std::string, Attribute>;  ///< "sateen:spp" ...
 void set_exr_threads(int threads);
 
 /// Writes an OpenEXR file whole or not at all (base/files), reads it back and compares before it takes its name.
-/// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header.
+/// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header,
+/// and no chromaticities where they are not known.
 long long write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,
-                    const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
+                    const Attributes& attributes, const std::optional<ColorManager::Chromaticities>& chromaticities);
 
 /// The same bytes of a picture that never lies in memory whole: `rows` makes the rows from y0 to y1 of all layers,
 /// always the same ones, from the top downwards, once to write them and once more to compare.

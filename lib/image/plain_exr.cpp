@@ -77,6 +77,8 @@ std::optional<Image> read_plain_exr(const fs::path& path, const ImageLimits& lim
     info->channels = image.channels;
     info->channel_names = names;
     info->format = "openexr";
+    info->alpha_channel = names.size() == 4 ? 3 : -1;
+    info->colors_times_alpha = names.size() == 4;
     info->pixel_type = header.channels().begin().channel().type == Imf::HALF ? "half" : "float";
     if (Imf::hasChromaticities(header)) {
       const Imf::Chromaticities& c = Imf::chromaticities(header);

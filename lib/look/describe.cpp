@@ -131,17 +131,23 @@ std::string texture_schema(bool color) {
       "{{\"description\": \"A texture in place of the value: pixel * scale + offset\", \"type\": \"object\", "
       "\"additionalProperties\": false, \"required\": [\"texture\"{}], \"properties\": {{"
       "\"texture\": {{\"description\": \"Path from this file's folder; <UDIM> stands for 1001, 1002 ...\", "
-      "\"type\": \"string\", \"minLength\": 1}}, {}"
+      "\"type\": \"string\", \"minLength\": 1}}, {}{}"
       "\"scale\": {{\"type\": \"number\", \"default\": 1}}, \"offset\": {{\"type\": \"number\", \"default\": 0}}, "
       "\"repeat\": {{\"description\": \"How often over one unit of u and of v\", \"type\": \"array\", "
       "\"minItems\": 2, \"maxItems\": 2, \"items\": {{\"type\": \"number\", \"minimum\": 0.001, \"maximum\": "
       "10000}}}}, \"repeat_cm\": {{\"description\": \"Size of one repeat on the cloth along u and v, in "
       "centimetres\", "
       "\"type\": \"array\", \"minItems\": 2, \"maxItems\": 2, \"items\": {{\"type\": \"number\", \"minimum\": 0.001, "
-      "\"maximum\": 100000}}}}, \"wrap\": {{\"enum\": [\"repeat\", \"clamp\", \"mirror\"]}}}}}}",
+      "\"maximum\": 100000}}}}, \"wrap\": {{\"enum\": [\"repeat\", \"clamp\", \"mirror\"]}}, "
+      "\"under\": {{\"description\": \"What shows where the picture is transparent, instead of what is inherited\", "
+      "\"type\": {}}}}}}}",
       color ? ", \"space\"" : "",
       color ? "\"space\": {\"description\": \"Colour space of the pixels\", \"type\": \"string\", \"minLength\": 1}, "
-            : "");
+            : "",
+      color
+          ? "\"under_A\": {\"type\": [\"array\", \"object\"]}, \"under_color\": {\"type\": [\"array\", \"object\"]}, "
+          : "",
+      color ? "[\"array\", \"object\"]" : "\"number\"");
 }
 }  // namespace
 

@@ -215,33 +215,67 @@ struct MemberText {
 
 namespace {
 
-/// A texture in place of a value: the field itself goes back to its default.
+/// Members of a texture that say what lies under it: of the field's own kind, and a family's other way to say a
+/// colour.
+constexpr std::string_view under_key = "under", under_scale_key = "under_A", under_color_key = "under_color";
+
+/// A texture in place of a value: the field keeps what it is without, for where the picture is transparent.
 bool set_texture(Look& look, const Field& field, const JsonValue& value, std::string_view name,
                  const Report& report) {
   TextureValue read;
   if (!read_texture(read, field, value, name, look.file, report)) return false;
-  const auto put = [&](const std::string& group, ThreadFamily* family) {
-    if (family && field.kind == FieldKind::color) {
-      family->color.reset();
-      family->A = ThreadFamily().A;
-      look.textures.erase(group + ".A");
-      look.textures.erase(group + ".color");
+  Look changed = look;
+  for (const JsonValue& item : value.items) {
+    const bool other = item.key == under_scale_key || item.key == under_color_key;
+    if (!other && item.key != under_key) continue;
+    if (item.find("texture")) {
+      report(item.place, fmt::format("{} of the texture of {} is a texture, expected a plain value", item.key, name),
+             {});
+      return false;
     }
+    const std::string group = field.group.empty() ? "" : field.group + ".";
+    const Field* under = &field;
+    if (other) under = find_field(group + (item.key == under_scale_key ? "A" : "color"));
+    if (!set_field(changed, *under, item, fmt::format("{} of the texture of {}", item.key, name), report))
+      return false;
+  }
+  look = std::move(changed);
+  const auto put = [&](const std::string& group, bool color) {
+    for (const char* key : {".A", ".color"})
+      if (color) look.textures.erase(group + key);
     look.textures[group.empty() ? field.key : group + "." + field.key] = read;
   };
   if (field.is_shorthand()) {
-    put("warp", &look.warp);
-    put("weft", &look.weft);
-    return true;
+    put("warp", true);
+    put("weft", true);
+  } else {
+    put(field.group, field.family && field.kind == FieldKind::color);
   }
-  const Look defaults;
-  visit_member(look, field, [&](auto& member) {
-    visit_member(defaults, field, [&](const auto& initial) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(initial)>, std::decay_t<decltype(member)>>) member = initial;
-    });
-  });
-  put(field.group, field.family ? &(look.*field.family) : nullptr);
   return true;
+}
+
+/// The member of a texture's text that says what lies under it; empty where that is a field's default.
+std::string under_text(const Look& look, const Field& field) {
+  std::string text, initial;
+  std::string_view key = under_key;
+  if (field.kind == FieldKind::color) {
+    const ThreadFamily& family = look.*field.family;
+    if (!family.color && family.A.value == ThreadFamily().A.value) return {};
+    text = family.color ? MemberText()(*family.color) : MemberText()(family.A);
+    if (field.key == "A" && family.color) key = under_color_key;
+    if (field.key != "A" && !family.color) key = under_scale_key;
+  } else {
+    const Look defaults;
+    visit_member(look, field, [&](const auto& member) { text = MemberText()(member); });
+    visit_member(defaults, field, [&](const auto& member) { initial = MemberText()(member); });
+    if (text == initial) return {};
+  }
+  return fmt::format(", \"{}\": {}", key, text);
+}
+
+std::string with_under(std::string texture, const Look& look, const Field& field) {
+  texture.insert(texture.size() - 1, under_text(look, field));
+  return texture;
 }
 
 }  // namespace
@@ -290,9 +324,12 @@ bool set_field(Look& look, const Field& field, const JsonValue& value, std::stri
 std::string field_text(const Look& look, const Field& field) {
   if (field.is_shorthand()) return {};
   if (const auto texture = look.textures.find(field.path); texture != look.textures.end())
-    return texture_text(texture->second, look.file);
+    return with_under(texture_text(texture->second, look.file), look, field);
   if (std::holds_alternative<ColorValue ThreadFamily::*>(field.member) &&
       ((look.*field.family).color || look.textures.contains(field.group + ".color")))
+    return {};
+  if (std::holds_alternative<std::optional<ColorValue> ThreadFamily::*>(field.member) &&
+      look.textures.contains(field.group + ".A"))
     return {};
   std::string text;
   visit_member(look, field, [&](const auto& member) { text = MemberText()(member); });
@@ -300,11 +337,11 @@ std::string field_text(const Look& look, const Field& field) {
 }
 
 std::string canonical_text(const Look& look, const Field& field) {
-  if (const auto texture = look.textures.find(field.path); texture != look.textures.end())
-    return texture_identity(texture->second);
-  if (field.kind != FieldKind::color) return field_text(look, field);
   Look pinned = look;
   pin_color_spaces(pinned);
+  if (const auto texture = look.textures.find(field.path); texture != look.textures.end())
+    return with_under(texture_identity(texture->second), pinned, field);
+  if (field.kind != FieldKind::color) return field_text(look, field);
   return field_text(pinned, field);
 }
 

@@ -13,8 +13,8 @@ using Report = std::function<void(const JsonPlace& place, std::string message, s
 
 /// Sets the field from a value of a look file after checking its kind and range; `name` is what messages call it.
 /// False when there was something to report; the look is then unchanged. Giving `color` resets A to its default
-/// and giving A drops `color`: a family has one or the other. A texture in place of the value goes to look.textures,
-/// a value drops the texture that was there.
+/// and giving A drops `color`: a family has one or the other. A texture in place of the value goes to look.textures
+/// and leaves the value that it stands over; a value drops the texture that was there.
 bool set_field(Look& look, const Field& field, const JsonValue& value, std::string_view name, const Report& report);
 
 /// The value as JSON, on one line, such that reading it back gives the same bits. Empty where the field holds

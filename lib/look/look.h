@@ -58,7 +58,8 @@ struct Look {
   float pattern_mask = 0;
   std::string pattern_look;
 
-  /// Textures by the path of the field that each stands for ("warp.color"); that field then holds its default.
+  /// Textures by the path of the field that each stands for ("warp.color"); that field then holds
+  /// what shows where the picture is transparent: its value in the look that is inherited, or the texture's `under`.
   std::map<std::string, TextureValue> textures;
 
   std::string file;  ///< where it was read from; not part of the look's hash

@@ -201,7 +201,11 @@ class LayerReader {
       for (const auto& [name, family] : {std::pair("warp", &Look::warp), std::pair("weft", &Look::weft)}) {
         const JsonValue* own = document_.root.find(name);
         if (own && (own->find("color") || own->find("A"))) {
-          layer_.look.*family = before.*family;
+          // What both families are said to be lies under a texture of one, unless that says it itself.
+          const JsonValue* texture = own->find("color") ? own->find("color") : own->find("A");
+          const bool over = texture->find("texture") && !texture->find("under") && !texture->find("under_A") &&
+                            !texture->find("under_color");
+          if (!over) layer_.look.*family = before.*family;
           for (const char* key : {".A", ".color"}) {
             layer_.look.textures.erase(name + std::string(key));
             if (const auto kept = before.textures.find(name + std::string(key)); kept != before.textures.end())

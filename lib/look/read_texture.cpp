@@ -86,7 +86,7 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
   constexpr double most = 1e6, least_repeat = 1e-3, most_repeat = 1e4, least_cm = 1e-3, most_cm = 1e5;
   TextureValue texture;
   const JsonValue *repeats = nullptr, *sizes = nullptr;
-  const bool color = field.kind == FieldKind::color;
+  const bool color = field.kind == FieldKind::color, family_color = color && field.family;
   for (const JsonValue& item : value.items) {
     if (item.key == "texture") {
       reader.text(texture.path, item, "the path of a picture");
@@ -116,9 +116,12 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
                      suggestion(item.text, names));
       else
         texture.wrap = TextureWrap(found - names.begin());
+    } else if (item.key == "under" || (family_color && item.key == (field.key == "A" ? "under_color" : "under_A"))) {
+      continue;  // a value like any other, which set_field() reads
     } else {
-      reader.fault(item.key_place, fmt::format("unknown key {} in the texture of {}", shown_name(item.key), name),
-                   suggestion(item.key, {"texture", "space", "scale", "offset", "repeat", "repeat_cm", "wrap"}));
+      reader.fault(
+          item.key_place, fmt::format("unknown key {} in the texture of {}", shown_name(item.key), name),
+          suggestion(item.key, {"texture", "space", "scale", "offset", "repeat", "repeat_cm", "wrap", "under"}));
     }
   }
   if (color && texture.space.empty() && reader.good)

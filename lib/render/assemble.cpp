@@ -218,6 +218,7 @@ Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, 
   if (!look.back.empty()) add_hash(read_back(look));
   if (!look.pattern_look.empty()) add_hash(read_pattern(look));
 
+  report.warnings.insert(report.warnings.end(), colors.warnings().begin(), colors.warnings().end());
   // Each part reports into fields of its own, the mesh alone into `warnings`.
   std::future<Cloth> cloth = std::async(std::launch::async, [&] { return build_cloth(settings, report); });
   std::future<Environment> environment = std::async(std::launch::async, [&] {

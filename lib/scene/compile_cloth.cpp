@@ -38,7 +38,8 @@ struct MapReader {
     const auto found = look.textures.find(path);
     if (found == look.textures.end()) return nullptr;
     const TextureValue& value = found->second;
-    Map& map = read_already[texture_text(value, {}) + what];
+    Map& map = read_already[fmt::format("{}{} {} {} {}", texture_text(value, {}), what, use.under[0], use.under[1],
+                                        use.under[2])];
     if (map) return map;
     PixelCounts counts;
     map = std::make_shared<const UvTexture>(read_uv_texture(value, path, colors, use, metres_per_uv, counts));
@@ -49,6 +50,8 @@ struct MapReader {
     };
     warn(counts.not_finite, "are not finite and count as 0");
     warn(counts.clamped, "are out of range: " + what);
+    if (counts.transparent == counts.pixels)
+      warn(counts.transparent, "are transparent: the cloth shows its own; save it without alpha to see its colours");
     return map;
   }
 
@@ -60,6 +63,11 @@ struct MapReader {
       *value *= unit;
       return inside;
     };
+    float own = 0;
+    visit_member(look, *find_field(path), [&](const auto& member) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(member)>, float>) own = member;
+    });
+    use.convert(&own, use.under.data());
     return read(path, fmt::format("brought into {:g} to {:g}", low, high), use);
   }
 
@@ -76,10 +84,24 @@ struct MapReader {
       value[1] = std::sin(radians(*pixel + turn));
       return true;  // angles go around
     };
+    use.convert(&look.warp_angle_deg, use.under.data());
     return read(path, "angle", use);
   }
 
-  Map raw_scale(const std::string& path) {
+  /// A of a family as it is without its texture; a colour that the cloth cannot show: the nearest.
+  std::array<float, 3> own_scale(const std::string& path, const Albedo& normal) const {
+    const ThreadFamily& family = path.starts_with("warp") ? look.warp : look.weft;
+    const ColorValue& own = family.color ? *family.color : family.A;
+    const Color value = colors.to_working(own.value, own.space.empty() ? look.color_space : own.space);
+    const float surface = normal.surface, volume = normal.volume[0] + normal.volume[1];
+    std::array<float, 3> scale{};
+    for (int c = 0; c < 3; ++c)
+      scale[size_t(c)] = !family.color || !(volume > 0) ? std::max(value[c], 0.0f)
+                                                        : std::clamp((value[c] - surface) / volume, 0.0f, 1.0f);
+    return scale;
+  }
+
+  Map raw_scale(const std::string& path, const Albedo& normal) {
     const auto low = float(find_field(path)->low), high = float(find_field(path)->high);
     PixelUse use;
     use.is_color = true;
@@ -89,6 +111,7 @@ struct MapReader {
       for (int c = 0; c < 3; ++c) inside &= clamp_into(value[c] = pixel[c], low, high);
       return inside;
     };
+    use.under = own_scale(path, normal);
     return read(path, fmt::format("brought into {:g} to {:g}", low, high), use);
   }
 
@@ -108,6 +131,7 @@ struct MapReader {
       }
       return inside;
     };
+    use.under = own_scale(path, normal);
     return read(path,
                 fmt::format("the nearest that this cloth can show, {:.3g} to {:.3g} in every channel, is taken",
                             surface, surface + volume),
@@ -214,7 +238,12 @@ Fabric compile_mapped(const Look& look, const ColorManager& colors, FabricParts 
   parts.narrowest = narrowest_lobes(maps);
 
   Albedo normal;
-  if (reader.has("warp.color") || reader.has("weft.color")) {
+  bool solves = false;
+  for (const std::string name : {"warp", "weft"}) {
+    solves |= reader.has(name + ".color");
+    solves |= reader.has(name + ".A") && (name == "warp" ? look.warp : look.weft).color;
+  }
+  if (solves) {
     FabricParts threads_alone = parts;
     threads_alone.table = false;
     Look uncolored = mean;
@@ -224,11 +253,13 @@ Fabric compile_mapped(const Look& look, const ColorManager& colors, FabricParts 
   }
   for (size_t f = 0; f < 2; ++f) {
     const std::string name = f == 0 ? "warp" : "weft";
-    maps.A[f] =
-        reader.has(name + ".color") ? reader.solved_color(name + ".color", normal) : reader.raw_scale(name + ".A");
+    maps.A[f] = reader.has(name + ".color") ? reader.solved_color(name + ".color", normal)
+                                            : reader.raw_scale(name + ".A", normal);
     if (!maps.A[f]) continue;
     const std::array<float, 3>& c = maps.A[f]->mean;
-    (f == 0 ? mean.warp : mean.weft).A = {Color(c[0], c[1], c[2]), working};
+    ThreadFamily& family = f == 0 ? mean.warp : mean.weft;
+    family.A = {Color(c[0], c[1], c[2]), working};
+    family.color.reset();
   }
   Fabric fabric = compile_fabric(mean, to_working, parts);
   maps.constant.A = fabric.A;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "image/alpha.h"
 #include "image/file.h"
 
 namespace sateen {
@@ -23,12 +24,21 @@ const UvTexture::Tile* tile_at(const UvTexture& t, const Vec2& uv) {
   return nullptr;
 }
 
+struct Picture {
+  Image image;
+  std::vector<float> alpha;  ///< empty: opaque
+};
+
 /// The picture as colours or numbers, scaled, with whatever is not finite replaced by 0 and counted.
-Image read_pixels(const std::filesystem::path& path, const TextureValue& value, const ColorManager& colors,
-                  bool is_color, PixelCounts& counts) {
-  const Image file = read_image(path);
+Picture read_picture(const std::filesystem::path& path, const TextureValue& value, const ColorManager& colors,
+                     bool is_color, PixelCounts& counts) {
+  ImageFileInfo info;
+  Image file = read_image(path, {}, &info);
+  Picture picture;
+  picture.alpha = take_alpha(file, info);
   const int channels = is_color ? 3 : 1;
-  Image image(file.width, file.height, channels);
+  picture.image = Image(file.width, file.height, channels);
+  Image& image = picture.image;
   const size_t pixels = image.pixels.size() / size_t(channels);
   for (size_t i = 0; i < pixels; ++i) {
     bool finite = true;
@@ -39,12 +49,14 @@ Image read_pixels(const std::filesystem::path& path, const TextureValue& value, 
       finite = finite && std::isfinite(code);
       image.pixels[i * size_t(channels) + size_t(c)] = std::isfinite(code) ? code : 0;
     }
-    counts.not_finite += finite ? 0 : 1;
+    const bool seen = picture.alpha.empty() || picture.alpha[i] > 0;
+    counts.not_finite += finite || !seen ? 0 : 1;
+    counts.transparent += seen ? 0 : 1;
   }
   if (is_color) colors.to_working(image, value.space);
   for (float& pixel : image.pixels) pixel = pixel * value.scale + value.offset;
   counts.pixels += std::int64_t(pixels);
-  return image;
+  return picture;
 }
 
 struct Sums {
@@ -52,18 +64,41 @@ struct Sums {
   std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
 };
 
-Image convert(const Image& pixels, const PixelUse& use, PixelCounts& counts, Sums& sums) {
+// The cloth's own value is mixed in before anything is filtered: the mean of mixtures is the mixture by the mean
+// alpha, and what colour transparent pixels have is seen by nobody.
+Image convert(const Picture& picture, const PixelUse& use, PixelCounts& counts, Sums& sums) {
+  const Image& pixels = picture.image;
   Image values(pixels.width, pixels.height, use.channels);
   for (size_t i = 0; i < values.pixels.size() / size_t(use.channels); ++i) {
     float* to = &values.pixels[i * size_t(use.channels)];
-    if (!use.convert(&pixels.pixels[i * size_t(pixels.channels)], to)) ++counts.clamped;
+    const float alpha = picture.alpha.empty() ? 1 : picture.alpha[i];
+    if (!use.convert(&pixels.pixels[i * size_t(pixels.channels)], to) && alpha > 0) ++counts.clamped;
     for (size_t c = 0; c < size_t(use.channels); ++c) {
+      if (alpha < 1) to[c] = alpha > 0 ? use.under[c] + (to[c] - use.under[c]) * alpha : use.under[c];
       sums.sum[c] += double(to[c]);
       sums.low[c] = std::min(sums.low[c], to[c]);
       sums.high[c] = std::max(sums.high[c], to[c]);
     }
   }
   return values;
+}
+
+bool has_clear_border(const Picture& picture) {
+  if (picture.alpha.empty()) return false;
+  const int width = picture.image.width, height = picture.image.height;
+  const auto clear = [&](int x, int y) { return picture.alpha[size_t(y) * size_t(width) + size_t(x)] == 0; };
+  for (int x = 0; x < width; ++x)
+    if (!clear(x, 0) || !clear(x, height - 1)) return false;
+  for (int y = 0; y < height; ++y)
+    if (!clear(0, y) || !clear(width - 1, y)) return false;
+  return true;
+}
+
+/// A motif that is there once: what is clamped around it is the cloth. Kept as what is added to that, so that its
+/// smaller pictures, at whose borders it is no longer clear, do not run on in streaks.
+Texture motif(Image values, const std::array<float, 3>& under, bool as_half) {
+  for (size_t i = 0; i < values.pixels.size(); ++i) values.pixels[i] -= under[i % size_t(values.channels)];
+  return Texture(values, TextureWrap::zero, as_half);
 }
 
 }  // namespace
@@ -84,6 +119,7 @@ void UvTexture::look_up(const Vec2& uv, const Footprint& footprint, float* value
   point.dx = scaled(footprint.dx, share_of_footprint);
   point.dy = scaled(footprint.dy, share_of_footprint);
   tile->texture.look_up(point, values);
+  for (size_t c = 0; c < size_t(channels); ++c) values[c] += under[c];
 }
 
 UvTexture read_uv_texture(const TextureValue& value, const std::string& field, const ColorManager& colors,
@@ -98,9 +134,14 @@ UvTexture read_uv_texture(const TextureValue& value, const std::string& field, c
   const PixelCounts before = counts;
   try {
     for (const TextureFile& file : texture_files(value.path)) {
-      const Image pixels = read_pixels(file.path, value, colors, use.is_color, counts);
+      const Picture picture = read_picture(file.path, value, colors, use.is_color, counts);
       const TextureWrap wrap = texture.udim ? TextureWrap::clamp : value.wrap;
-      texture.tiles.push_back({file.u, file.v, Texture(convert(pixels, use, counts, sums), wrap, use.is_color)});
+      const bool once = !texture.udim && wrap == TextureWrap::clamp && has_clear_border(picture);
+      if (once) texture.under = use.under;
+      Image values = convert(picture, use, counts, sums);
+      texture.tiles.push_back(
+          {file.u, file.v,
+           once ? motif(std::move(values), use.under, use.is_color) : Texture(values, wrap, use.is_color)});
     }
     if (texture.tiles.empty()) throw InputError(value.path + ": no such file", {}, InputError::Kind::unreadable);
   } catch (const InputError& error) {

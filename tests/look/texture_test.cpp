@@ -66,6 +66,56 @@ TEST(TextureValue, GivesWayToAValueAndTakesItsPlace) {
   EXPECT_TRUE(set.textures.empty());
 }
 
+TEST(TextureValue, KeepsWhatLiesUnderItThroughInheritingWritingAndHashing) {
+  use_source_tree();
+  const ScratchFolder folder;
+  folder.write("a.png", "a");
+  folder.write("parent.json", R"({"color": [0.2, 0.5, 0.4], "warp": {"k_d": 0.7}, "weft": {"A": [0.1, 0.2, 0.3]}})");
+  const std::string color = R"("color": {"texture": "a.png", "space": "srgb_texture"})";
+  const auto read = [&](const std::string& members) {
+    return parse_look("{" + members + "}", folder.file("c.json"));
+  };
+  const Look child = read(R"("inherits": "parent.json", )" + color +
+                          R"(, "warp": {"k_d": {"texture": "a.png"}, "eta": {"texture": "a.png"}})");
+  EXPECT_EQ(child.warp.color.value().value.y, 0.5f);
+  EXPECT_FALSE(child.weft.color);
+  EXPECT_EQ(child.weft.A.value.z, 0.3f);
+  EXPECT_EQ(child.warp.k_d, 0.7f);
+  const auto text = [](const Look& look, const char* path) { return field_text(look, *find_field(path)); };
+  EXPECT_EQ(text(child, "warp.k_d"), R"({"texture": "a.png", "under": 0.7})");
+  EXPECT_EQ(text(child, "warp.eta"), R"({"texture": "a.png"})") << "the default needs no word";
+  for (const auto& [path, key] : {std::pair("warp.color", "\"under\": "), {"weft.color", "\"under_A\": "}})
+    EXPECT_NE(text(child, path).find(key), std::string::npos) << text(child, path);
+  // Without its parent it is the same cloth, in value and hash.
+  const Look again = parse_look(write_look(child), folder.file("c.json"));
+  EXPECT_EQ(all_values(again), all_values(child));
+  EXPECT_EQ(look_hash(again), look_hash(child));
+  EXPECT_EQ(again.weft.A.value.z, 0.3f);
+  EXPECT_NE(look_hash(child),
+            look_hash(read(color + R"(, "warp": {"k_d": {"texture": "a.png"}, "eta": {"texture": "a.png"}})")));
+  // A raw scale over a colour.
+  const Look raw = read(R"("inherits": "parent.json", "warp": {"A": {"texture": "a.png", "space": "acescg"}})");
+  EXPECT_NE(text(raw, "warp.A").find("under_color"), std::string::npos) << text(raw, "warp.A");
+  EXPECT_EQ(text(raw, "warp.color"), "");
+  EXPECT_EQ(all_values(parse_look(write_look(raw), folder.file("c.json"))), all_values(raw));
+  // Said in one file, and by --set.
+  const Look said = read(
+      R"("color": {"texture": "a.png", "space": "acescg", "under": [0.1, 0.2, 0.3]}, "warp": {"k_d": {"texture": "a.png", "under": 0.9}})");
+  EXPECT_EQ(said.weft.color.value().value.x, 0.1f);
+  EXPECT_EQ(said.warp.k_d, 0.9f);
+  Look set = said;
+  apply_override(set, "warp.k_d=0.25");
+  EXPECT_FALSE(set.textures.contains("warp.k_d"));
+  EXPECT_EQ(set.warp.k_d, 0.25f);
+  apply_override(set, "warp.k_d={\"texture\": \"a.png\"}");
+  EXPECT_EQ(set.warp.k_d, 0.25f);
+  // The colour of both lies under the texture of one.
+  const std::string one = R"("color": [0.3, 0.4, 0.5], "warp": {"color": {"texture": "a.png", "space": "acescg")";
+  EXPECT_EQ(read(one + "}}").warp.color.value().value.y, 0.4f);
+  EXPECT_EQ(read(one + R"(, "under": [0.6, 0.6, 0.6]}})").warp.color.value().value.y, 0.6f);
+  EXPECT_TRUE(read(one + "}}").textures.contains("warp.color"));
+}
+
 TEST(TextureValue, CountsInTheHashByWhatTheFileHolds) {
   use_source_tree();
   const ScratchFolder folder;
@@ -109,6 +159,9 @@ TEST(TextureValue, SaysWhatIsWrongAndWhere) {
        "expected a number from 0.001 to 100000"},
       {R"({"warp": {"k_d": {"texture": "print.png", "repeat_cm": 8}}})", "centimetres along u"},
       {R"({"warp": {"k_d": {"texture": "print.png", "repaet_cm": [8, 8]}}})", "did you mean repeat_cm?"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "under": 7}}})", "under of the texture of k_d"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "under_A": 0.7}}})", "did you mean under?"},
+      {R"({"warp": {"k_d": {"texture": "print.png", "under": {"texture": "print.png"}}}})", "expected a plain value"},
       {R"({"pattern": {"mask": 0.5}})", "no look to weave in"},
       {R"({"pattern": {"mask": 0.5, "look": "no_such_look"}})", "there is no such look"},
       {R"({"mask": 0.5})", "it belongs inside \"pattern\""}};

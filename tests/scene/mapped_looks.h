@@ -26,7 +26,8 @@ struct MappedLooks {
       for (int x = 0; x < width; ++x)
         for (int c = 0; c < 3; ++c) image.at(x, y)[c] = color(x, y)[c];
     sateen::write_exr(folder.path / name, {{"", {"R", "G", "B"}, false, image}}, {},
-                      {{0.64f, 0.33f}, {0.3f, 0.6f}, {0.15f, 0.06f}, {0.3127f, 0.329f}});
+                      sateen::ColorManager::Chromaticities{
+                          {0.64f, 0.33f}, {0.3f, 0.6f}, {0.15f, 0.06f}, {0.3127f, 0.329f}});
   }
 
   sateen::Look look(const std::string& text, const std::string& name = "mapped.json") const {

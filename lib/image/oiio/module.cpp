@@ -44,7 +44,10 @@ Input open(const fs::path& path) {
   if (status.type() == fs::file_type::directory) refuse(path, "is a folder, expected a picture");
   if (status.type() != fs::file_type::regular) refuse(path, "is not a regular file");
   if (fs::file_size(path, code) == 0) refuse(path, "is empty, expected a picture");
-  Input input = OIIO::ImageInput::open(path.string());
+  // Else the library multiplies colours by alpha while they are still encoded.
+  OIIO::ImageSpec as_stored;
+  as_stored.attribute("oiio:UnassociatedAlpha", 1);
+  Input input = OIIO::ImageInput::open(path.string(), &as_stored);
   if (!input) refuse(path, "is not a picture that can be read" + because(OIIO::geterror()));
   return input;
 }
@@ -57,12 +60,21 @@ void seek_flat_part(OIIO::ImageInput& input, const fs::path& path) {
   refuse(path, "holds deep pixels only, expected a part with flat ones", "flatten it first");
 }
 
+int orientation_of(const OIIO::ImageSpec& spec) {
+  return spec.get_int_attribute("Orientation", 1);
+}
+
 ImageFileInfo info_of(const OIIO::ImageInput& input) {
   const OIIO::ImageSpec& spec = input.spec();
   ImageFileInfo info;
   info.width = spec.full_width > 0 ? spec.full_width : spec.width;
   info.height = spec.full_height > 0 ? spec.full_height : spec.height;
+  if (const int orientation = orientation_of(spec); orientation >= 5 && orientation <= 8)
+    std::swap(info.width, info.height);
   info.channels = spec.nchannels;
+  // A picture of one channel is numbers, whatever the channel is called.
+  if (spec.nchannels > 1 && spec.alpha_channel < spec.nchannels) info.alpha_channel = spec.alpha_channel;
+  info.colors_times_alpha = info.alpha_channel >= 0 && !spec.get_int_attribute("oiio:UnassociatedAlpha");
   info.channel_names = spec.channelnames;
   info.format = input.format_name();
   info.pixel_type = spec.format.c_str();
@@ -139,7 +151,7 @@ Image read_pixels(const fs::path& path, const ImageLimits& limits, ImageFileInfo
   std::string error;
   if (!read_pixels(*input, OIIO::TypeDesc::FLOAT, image.pixels, error))
     refuse(path, "its pixels cannot be read: the file is damaged or cut short" + because(error));
-  return place(std::move(image), spec);
+  return apply_orientation(place(std::move(image), spec), orientation_of(spec));
 }
 
 Attributes read_texts(const fs::path& path) {

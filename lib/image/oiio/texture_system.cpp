@@ -102,6 +102,7 @@ OIIO::TextureOpt options_for(TextureWrap wrap) {
   OIIO::TextureOpt options;
   options.swrap = options.twrap = wrap == TextureWrap::clamp    ? OIIO::TextureOpt::WrapClamp
                                   : wrap == TextureWrap::mirror ? OIIO::TextureOpt::WrapMirror
+                                  : wrap == TextureWrap::zero   ? OIIO::TextureOpt::WrapBlack
                                                                 : OIIO::TextureOpt::WrapPeriodic;
   options.mipmode = OIIO::TextureOpt::MipModeAniso;
   // Bicubic leaves the range of the pixels, and blurs.
