@@ -22,6 +22,7 @@ std::string linear_space(const std::string& space) {
 MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio, const std::string& working) {
   MeasuredLook measured;
   measured.look = look;
+  measured.warnings = look.weave.draft_warnings;
   measured.space = working.empty() ? linear_space(look.color_space) : working;
   std::unique_ptr<ColorManager> colors;  // made only where a colour needs it: reading a config takes its time
   const ToWorking convert = [&](const Color& value, const std::string& space) {
@@ -39,7 +40,7 @@ MeasuredLook measure_look(const Look& look, bool with_table, const std::string& 
   colors = std::make_unique<ColorManager>(ocio, measured.space);
   CompiledSide side = compile_side(look, *colors, parts);
   measured.fabric = std::move(side.fabric);
-  measured.warnings = std::move(side.warnings);
+  measured.warnings.insert(measured.warnings.end(), side.warnings.begin(), side.warnings.end());
   if (side.color_error >= 0.005f)
     measured.warnings.push_back(fmt::format(
         "{}: textures of color are solved for the means of the textures of numbers; where one of those is at the end "
