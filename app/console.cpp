@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace sateen::app {
 
 Voice voice;
@@ -13,11 +15,16 @@ namespace {
 // The first failure of standard output; what follows is dropped.
 int output_error = 0;
 
-void put(std::FILE* file, std::string_view text, const char* end) {
+void put_as_it_is(std::FILE* file, std::string_view text, const char* end) {
   errno = 0;
   const bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fputs(end, file) >= 0 &&
                     std::fflush(file) == 0;
   if (!good && file == stdout && output_error == 0) output_error = errno ? errno : EIO;
+}
+
+// Whatever part of a text came out of a file, no control character of it reaches the terminal.
+void put(std::FILE* file, std::string_view text, const char* end) {
+  put_as_it_is(file, printable(text, true, true), end);
 }
 }  // namespace
 
@@ -35,7 +42,7 @@ void print_warning(std::string_view line) {
   put(stderr, line, "\n");
 }
 void print_progress(std::string_view text) {
-  put(stderr, text, "");
+  put_as_it_is(stderr, text, "");
 }
 void print_error(std::string_view text) {
   put(stderr, text, "\n");

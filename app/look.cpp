@@ -141,6 +141,7 @@ int look_resolve(const std::vector<std::string>& words) {
   command.example("sateen look resolve emerald_satin --file > mine.json", "a copy to work on, without a parent");
   if (!command.parse(words)) return done;
   const ResolvedLook resolved = resolve_look(names[0], overrides);
+  for (const std::string& warning : resolved.look.weave.draft_warnings) print_warning(warning);
   if (plain) {
     print_result(write_look(resolved.look));
     return done;
@@ -161,8 +162,13 @@ int look_resolve(const std::vector<std::string>& words) {
   }
   w.close().close();
   std::string text;
-  for (const FieldOrigin& v : resolved.values)
-    text += fmt::format("{:<{}}  {:<{}}  {}\n", v.path, path_width, v.value, value_width, v.origin);
+  constexpr size_t longest_shown = 4000;  // a jacquard's draft has megabytes
+  for (const FieldOrigin& v : resolved.values) {
+    const bool cut = v.value.size() > longest_shown;
+    const std::string value =
+        cut ? fmt::format("{}... ({} characters, --file shows all)", v.value.substr(0, 60), v.value.size()) : v.value;
+    text += fmt::format("{:<{}}  {:<{}}  {}\n", v.path, path_width, value, value_width, v.origin);
+  }
   print_result(voice.json ? w.text() : text);
   return done;
 }

@@ -22,6 +22,7 @@ std::string linear_space(const std::string& space) {
 MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio, const std::string& working) {
   MeasuredLook measured;
   measured.look = look;
+  measured.warnings = look.weave.draft_warnings;
   measured.space = working.empty() ? linear_space(look.color_space) : working;
   std::unique_ptr<ColorManager> colors;  // made only where a colour needs it: reading a config takes its time
   const ToWorking convert = [&](const Color& value, const std::string& space) {

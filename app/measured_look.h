@@ -13,7 +13,7 @@ struct MeasuredLook {
   Look look;
   Fabric fabric;
   std::string space;
-  std::vector<std::string> warnings;  ///< of textures
+  std::vector<std::string> warnings;  ///< of its draft and its textures
 };
 MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio = {},
                           const std::string& working = {});

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
+
 namespace sateen {
 
 namespace {
@@ -18,32 +20,47 @@ std::string join(const std::vector<Diagnostic>& all) {
   if (all.size() > most_printed) text += fmt::format("\n... and {} more", all.size() - most_printed);
   return text;
 }
+
+// What a file holds is shown, never obeyed: a tab alone keeps its width, so that the carets stand under what they
+// mean.
+std::string shown_line(const std::string& text) {
+  return printable(text, false, true);
+}
+
+std::string blanks_below(const std::string& shown) {
+  std::string blanks;
+  for (const char c : shown)
+    if ((static_cast<unsigned char>(c) & 0xc0) != 0x80) blanks += c == '\t' ? '\t' : ' ';
+  return blanks;
+}
 }  // namespace
 
 std::string to_string(const Diagnostic& d) {
-  std::string place = d.file;
+  std::string place = printable(d.file);
   if (d.line > 0) place += fmt::format(":{}:{}", d.line, d.column);
   if (d.offset >= 0) place += fmt::format(": at byte {}", d.offset);
-  std::string text = place.empty() ? "error: " + d.message : fmt::format("{}: error: {}", place, d.message);
+  const std::string message = printable(d.message, true);
+  std::string text = place.empty() ? "error: " + message : fmt::format("{}: error: {}", place, message);
   if (d.line > 0 && !d.source_line.empty()) {
-    // A tab keeps its width, so that the carets stand under what they mean.
     constexpr size_t longest = 160;
-    const std::string number = std::to_string(d.line);
-    size_t start = 0;
+    const std::string& line = d.source_line;
     const size_t column = size_t(std::max(d.column - 1, 0));
-    if (d.source_line.size() > longest && column > longest / 2) start = column - longest / 2;
-    const std::string shown = start < d.source_line.size() ? d.source_line.substr(start, longest) : std::string();
-    std::string pad;
-    for (size_t i = start; i < column; ++i) {
-      const unsigned char c = i < d.source_line.size() ? static_cast<unsigned char>(d.source_line[i]) : ' ';
-      if ((c & 0xc0) == 0x80) continue;  // the later bytes of a UTF-8 character take no room
-      pad += c == '\t' ? '\t' : ' ';
-    }
-    const size_t room = shown.size() > pad.size() ? shown.size() - pad.size() : 1;
-    const std::string carets(std::clamp<size_t>(size_t(std::max(d.width, 1)), 1, room), '^');
-    text += fmt::format("\n{:>5} | {}\n      | {}{}", number, shown, pad, carets);
+    size_t start = line.size() > longest && column > longest / 2 ? column - longest / 2 : 0;
+    // Never cut inside a character of several bytes.
+    while (start > 0 && start < line.size() && (static_cast<unsigned char>(line[start]) & 0xc0) == 0x80) --start;
+    size_t stop = std::min(line.size(), start + longest);
+    while (stop > start && stop < line.size() && (static_cast<unsigned char>(line[stop]) & 0xc0) == 0x80) --stop;
+    const auto part = [&](size_t from, size_t to) {
+      from = std::clamp(from, start, stop);
+      return shown_line(line.substr(from, std::clamp(to, from, stop) - from));
+    };
+    const size_t end = column + size_t(std::max(d.width, 1));
+    std::string pad = blanks_below(part(start, column));
+    if (column > line.size()) pad += std::string(column - line.size(), ' ');
+    const std::string carets(std::max<size_t>(blanks_below(part(column, end)).size(), 1), '^');
+    text += fmt::format("\n{:>5} | {}{}\n      | {}{}", d.line, part(start, column), part(column, stop), pad, carets);
   }
-  if (!d.help.empty()) text += "\n  help: " + d.help;
+  if (!d.help.empty()) text += "\n  help: " + printable(d.help, true);
   return text;
 }
 

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/name_distance.h"
+
 namespace sateen {
 
 namespace {
-char lower(char c) { return char(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) {
+  return char(std::tolower(static_cast<unsigned char>(c)));
+}
 
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -24,7 +28,19 @@ size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return last[b.size()];
 }
+
+bool holds(std::string_view whole, std::string_view part) {
+  return std::search(whole.begin(), whole.end(), part.begin(), part.end(),
+                     [](char a, char b) { return lower(a) == lower(b); }) != whole.end();
+}
 }  // namespace
+
+size_t name_distance(std::string_view a, std::string_view b) {
+  constexpr size_t fewest_letters = 3;
+  const size_t edits = edit_distance(a, b);
+  const bool inside = std::min(a.size(), b.size()) >= fewest_letters && (holds(a, b) || holds(b, a));
+  return inside ? std::min<size_t>(edits, 1) : edits;
+}
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   size_t best = std::clamp<size_t>(name.size() / 3, 1, 4) + 1;

@@ -147,7 +147,7 @@ struct Bands {
 };
 
 long long write_bands(const fs::path& path, const Bands& bands, const Attributes& attributes,
-                      const ColorManager::Chromaticities& chromaticities) {
+                      const std::optional<ColorManager::Chromaticities>& chromaticities) {
   long long clamped = 0;
   CheckedStream stream(path);
   {

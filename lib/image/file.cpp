@@ -84,7 +84,7 @@ void write_display_image(const fs::path& path, int width, int height, int channe
 }
 
 long long write_exr(const fs::path& path, const std::vector<ImageLayer>& layers, const Attributes& attributes,
-                    const ColorManager::Chromaticities& chromaticities) {
+                    const std::optional<ColorManager::Chromaticities>& chromaticities) {
   const auto fail = [&](const std::string& what) {
     throw OperationError(fmt::format("{}: not written: {}", path.string(), what));
   };

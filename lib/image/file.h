@@ -68,7 +68,7 @@ long long write_exr(const std::filesystem::path& path, const std::vector<ImageLa
 /// always the same ones, from the top downwards, once to write them and once more to compare.
 using LayerRows = std::function<std::vector<ImageLayer>(int y0, int y1)>;
 long long write_exr(const std::filesystem::path& path, int width, int height, const LayerRows& rows,
-                    const Attributes& attributes, const ColorManager::Chromaticities& chromaticities);
+                    const Attributes& attributes, const std::optional<ColorManager::Chromaticities>& chromaticities);
 
 /// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.
 /// Dithered to 8 bit (png, tif) with a fixed blue-noise pattern so that smooth satin does not band. Verified like

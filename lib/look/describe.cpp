@@ -46,7 +46,7 @@ std::string type_schema(const Field& field) {
       return "\"type\": \"string\", \"minLength\": 1";
     case FieldKind::draft:
       return "\"anyOf\": [{\"type\": \"string\"}, {\"type\": \"array\", \"minItems\": 1, \"items\": {\"type\": "
-             "\"string\", \"pattern\": \"^[xX.10]+$\"}}]";
+             "\"string\", \"pattern\": \"^([xX.10]+|[0-9a-fA-F]+|packed [0-9]+)$\"}}]";
     case FieldKind::number:
       return fmt::format("\"type\": \"number\"{}", bounds(field));
     case FieldKind::numbers:

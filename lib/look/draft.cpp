@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <numeric>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -24,6 +26,7 @@ std::string lower(std::string text) {
 
 Draft make_draft(int ends, int picks, auto&& warp_up) {
   Draft draft{ends, picks, {}};
+  draft.warp_up.reserve(size_t(ends) * size_t(picks));
   for (int pick = 0; pick < picks; ++pick)
     for (int end = 0; end < ends; ++end) draft.warp_up.push_back(warp_up(end, pick) ? 1 : 0);
   return draft;
@@ -108,19 +111,63 @@ Draft matrix(const std::vector<std::string>& rows) {
   });
 }
 
-/// Whether the draft repeats itself after `step` ends, or picks.
+/// Whether the draft repeats itself after `step` ends, or picks, which divide its own.
 bool repeats(const Draft& d, int step, bool along_ends) {
-  for (int pick = 0; pick < d.picks; ++pick)
-    for (int end = 0; end < d.ends; ++end)
-      if (d.up(end, pick) != (along_ends ? d.up((end + step) % d.ends, pick) : d.up(end, (pick + step) % d.picks)))
-        return false;
+  const auto ends = size_t(d.ends), picks = size_t(d.picks), by = size_t(step);
+  const auto row = [&](size_t pick) { return d.warp_up.begin() + std::ptrdiff_t(pick * ends); };
+  const auto after = [](auto at, size_t n) { return at + std::ptrdiff_t(n); };
+  if (!along_ends) return std::equal(row(by), d.warp_up.end(), row(0));
+  for (size_t pick = 0; pick < picks; ++pick)
+    if (!std::equal(after(row(pick), by), after(row(pick), ends), row(pick))) return false;
   return true;
+}
+
+constexpr std::string_view packed_word = "packed ";
+
+Draft unpacked(const std::vector<std::string>& rows) {
+  int ends = 0;
+  const char *const begin = rows[0].data() + packed_word.size(), *const stop = rows[0].data() + rows[0].size();
+  const auto read = std::from_chars(begin, stop, ends);
+  if (read.ec != std::errc() || read.ptr != stop || ends < 1 || ends > most_draft_side ||
+      rows.size() > size_t(most_draft_side) + 1)
+    throw InputError(
+        fmt::format("the draft is {} with {} rows, expected packed and a number of ends from 1 to {}, and "
+                    "at most {} rows",
+                    shown_name(rows[0]), rows.size() - 1, most_draft_side, most_draft_side));
+  Draft draft{ends, int(rows.size()) - 1, {}};
+  draft.warp_up.reserve(size_t(ends) * rows.size());
+  for (size_t i = 1; i < rows.size(); ++i) {
+    const size_t odd = rows[i].find_first_not_of("0123456789abcdefABCDEF");
+    if (odd != std::string::npos || rows[i].size() != size_t(ends + 3) / 4)
+      throw InputError(fmt::format("row {} of the draft is {}, expected {} hexadecimal digits for {} ends", i,
+                                   shown_name(rows[i]), (ends + 3) / 4, ends));
+    for (size_t end = 0; end < size_t(ends); ++end) {
+      const char c = rows[i][end / 4];
+      const int digit = c <= '9' ? c - '0' : (c | 32) - 'a' + 10;
+      draft.warp_up.push_back(std::uint8_t(digit >> (3 - end % 4) & 1));
+    }
+  }
+  return draft;
+}
+
+std::vector<std::string> packed(const Draft& draft) {
+  std::vector<std::string> rows{fmt::format("{}{}", packed_word, draft.ends)};
+  for (int pick = 0; pick < draft.picks; ++pick) {
+    std::string& row = rows.emplace_back();
+    for (int end = 0; end < draft.ends; end += 4) {
+      int digit = 0;
+      for (int i = end; i < end + 4; ++i) digit = digit * 2 + (i < draft.ends && draft.up(i, pick));
+      row += "0123456789abcdef"[digit];
+    }
+  }
+  return rows;
 }
 
 }  // namespace
 
 Draft parse_draft(const std::vector<std::string>& text) {
   if (text.empty()) throw InputError("the draft is an empty list", forms);
+  if (text.size() > 1 && text[0].starts_with(packed_word)) return unpacked(text);
   const bool is_matrix = text.size() > 1 || text[0].find_first_not_of("xX1.0") == std::string::npos;
   if (is_matrix && !text[0].empty()) return matrix(text);
   std::vector<std::string> words;
@@ -137,6 +184,7 @@ Draft parse_draft(const std::vector<std::string>& text) {
 }
 
 std::vector<std::string> draft_rows(const Draft& draft) {
+  if (draft.warp_up.size() > largest_plain_draft) return packed(draft);
   std::vector<std::string> rows;
   for (int pick = 0; pick < draft.picks; ++pick) {
     std::string& row = rows.emplace_back();

@@ -99,11 +99,11 @@ bool read_triple(Color& to, const Field& field, const JsonValue& value, std::str
   bool good = true;
   for (int i = 0; i < 3; ++i) {
     const JsonValue& item = value.items[size_t(i)];
-    const Report with_help = [&](const JsonPlace& place, std::string message, std::string help) {
+    const Report with_help{[&](const JsonPlace& place, std::string message, std::string help, bool) {
       if (item.kind == Kind::number && field.high == 1 && item.number > 1 && item.number <= 255)
         help = "colours go from 0 to 1, not to 100 or 255";
       report(place, std::move(message), std::move(help));
-    };
+    }};
     good = read_number(to[i], field, item, fmt::format("{} of {}", channels[i], name), with_help) && good;
   }
   return good;

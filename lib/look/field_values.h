@@ -8,8 +8,15 @@
 
 namespace sateen {
 
-/// Takes one complaint: its place in the text, found and expected, and the remedy (may be empty).
-using Report = std::function<void(const JsonPlace& place, std::string message, std::string help)>;
+/// Takes one complaint: its place in the text, found and expected, the remedy (may be empty), and whether it is of a
+/// file that is missing.
+struct Report {
+  std::function<void(const JsonPlace& place, std::string message, std::string help, bool missing)> take;
+
+  void operator()(const JsonPlace& place, std::string message, std::string help, bool missing = false) const {
+    take(place, std::move(message), std::move(help), missing);
+  }
+};
 
 /// Sets the field from a value of a look file after checking its kind and range; `name` is what messages call it.
 /// False when there was something to report; the look is then unchanged. Giving `color` resets A to its default

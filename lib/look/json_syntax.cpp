@@ -6,6 +6,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "base/printable.h"
+
 namespace sateen {
 
 namespace {
@@ -65,23 +67,6 @@ std::string shown(std::string_view text, size_t begin, size_t end) {
 
 size_t line_of(std::string_view text, size_t at) {
   return size_t(std::count(text.begin(), text.begin() + long(at), '\n')) + 1;
-}
-
-// Bytes of the UTF-8 character at `at`, or 0 where there is none (RFC 3629: no overlong forms, no surrogates).
-size_t character_length(std::string_view text, size_t at) {
-  const auto byte = [&](size_t i) { return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u; };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const size_t length = first >= 0xc2 && first < 0xe0   ? 2
-                        : (first & 0xf0) == 0xe0        ? 3
-                        : first >= 0xf0 && first < 0xf5 ? 4
-                                                        : 0;
-  for (size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  const unsigned second = byte(1);
-  const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
-                     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
-  return wrong ? 0 : length;
 }
 
 // The code unit of the \uXXXX at `at`, or -1.

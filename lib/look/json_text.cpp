@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
 #include "look/json.h"
 
 namespace sateen {
@@ -21,37 +22,23 @@ Diagnostic diagnostic_at(const JsonDocument& document, const JsonPlace& place, s
     const size_t end = std::min(document.text.find('\n', begin), document.text.size());
     if (end - begin <= longest_line) d.source_line = document.text.substr(begin, end - begin);
     if (d.source_line.ends_with('\r')) d.source_line.pop_back();
-    for (char& c : d.source_line)
-      if ((static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f) c = '.';  // a terminal would obey them
   }
   return d;
 }
 
 std::string json_quote(std::string_view text) {
   std::string quoted = "\"";
-  for (const char c : text) {
-    switch (c) {
-      case '"':
-        quoted += "\\\"";
-        break;
-      case '\\':
-        quoted += "\\\\";
-        break;
-      case '\n':
-        quoted += "\\n";
-        break;
-      case '\r':
-        quoted += "\\r";
-        break;
-      case '\t':
-        quoted += "\\t";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-          quoted += fmt::format("\\u{:04x}", unsigned(c));
-        else
-          quoted += c;
-    }
+  for (size_t at = 0, length = 0; at < text.size(); at += length) {
+    length = std::max<size_t>(character_length(text, at), 1);
+    const char c = text[at];
+    if (c == '"' || c == '\\')
+      quoted += {'\\', c};
+    else if (c == '\n' || c == '\r' || c == '\t')
+      quoted += c == '\n' ? "\\n" : c == '\r' ? "\\r" : "\\t";
+    else if (const unsigned code = obeyed_character(text, at, length); code != 0 || c == '\0')
+      quoted += fmt::format("\\u{:04x}", code);
+    else
+      quoted += text.substr(at, length);
   }
   return quoted + "\"";
 }
@@ -61,8 +48,7 @@ std::string shown_name(std::string_view name) {
   size_t length = std::min(name.size(), longest);
   // Never cut inside a character of several bytes.
   while (length < name.size() && length > 0 && (static_cast<unsigned char>(name[length]) & 0xc0) == 0x80) --length;
-  const std::string quoted = json_quote(name.substr(0, length));
-  const std::string inside = quoted.substr(1, quoted.size() - 2) + (length < name.size() ? "..." : "");
+  const std::string inside = printable(name.substr(0, length)) + (length < name.size() ? "..." : "");
   return inside.empty() || inside.find(' ') != std::string::npos ? "\"" + inside + "\"" : inside;
 }
 

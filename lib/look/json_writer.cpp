@@ -4,35 +4,16 @@
 
 #include <cmath>
 
+#include "base/printable.h"
 #include "look/json.h"
 
 namespace sateen {
 
-namespace {
-// Bytes of the UTF-8 sequence that starts `text`; 0 where there is none (RFC 3629, no surrogates, nothing overlong).
-size_t sequence_length(std::string_view text) {
-  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned lead = byte(0);
-  if (lead < 0x80) return 1;
-  const size_t length = lead >= 0xc2 && lead < 0xe0   ? 2
-                        : lead >= 0xe0 && lead < 0xf0 ? 3
-                        : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                      : 0;
-  for (size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  if ((lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xed && byte(1) >= 0xa0) || (lead == 0xf0 && byte(1) < 0x90) ||
-      (lead == 0xf4 && byte(1) >= 0x90))
-    return 0;
-  return length;
-}
-}  // namespace
-
 std::string valid_utf8(std::string_view text) {
   std::string out;
-  while (!text.empty()) {
-    const size_t length = sequence_length(text);
-    out += length ? text.substr(0, length) : std::string_view("\xef\xbf\xbd");
-    text.remove_prefix(length ? length : 1);
+  for (size_t at = 0, length = 0; at < text.size(); at += length ? length : 1) {
+    length = character_length(text, at);
+    out += length ? text.substr(at, length) : std::string_view("\xef\xbf\xbd");
   }
   return out;
 }

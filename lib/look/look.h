@@ -38,6 +38,7 @@ struct WeaveSettings {
   float weft_per_cm = 30;
   float irregularity = 0;  ///< how far the threads' edges stray, as a share of their spacing, 0 to 0.4
   float slubs = 0;         ///< how much thick places of the weft push their neighbours aside, 0 to 1
+  std::vector<std::string> draft_warnings;  ///< what is to be told of a WIF file's draft; not part of the look
 };
 
 /// A fabric as authored: human units, a default on every field. Warp runs along x = dP/du, weft along y.

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 #include "base/error.h"
+#include "base/name_distance.h"
 #include "base/nearest_name.h"
 #include "look/consistency.h"
 #include "look/field_values.h"
@@ -23,8 +25,20 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// People type .5 and +5, which JSON does not know.
-std::string with_json_numbers(std::string_view typed) {
+// "40%" as 0.4: takes the number before it off the end of `json` and puts its hundredth there.
+void take_percent(std::string& json) {
+  while (!json.empty() && json.back() == ' ') json.pop_back();
+  const size_t begin = json.find_last_not_of("0123456789.eE+-") + 1;
+  double value = 0;
+  const auto [end, code] = std::from_chars(json.data() + begin, json.data() + json.size(), value);
+  if (code == std::errc() && end == json.data() + json.size())
+    json.replace(begin, std::string::npos, fmt::format("{}", value / 100));
+  else
+    json += '%';
+}
+
+// People type .5 and +5, which JSON does not know, and shares as percentages.
+std::string with_json_numbers(std::string_view typed, bool shares) {
   std::string json;
   bool quoted = false;
   for (const char c : typed) {
@@ -36,6 +50,10 @@ std::string with_json_numbers(std::string_view typed) {
     const bool after_digit = !json.empty() && std::isdigit(static_cast<unsigned char>(json.back()));
     const bool after_exponent = !json.empty() && (json.back() == 'e' || json.back() == 'E');
     if (c == '+' && !after_digit && !after_exponent) continue;
+    if (c == '%' && shares) {
+      take_percent(json);
+      continue;
+    }
     if (c == '.' && !after_digit) json += '0';
     json += c;
   }
@@ -49,7 +67,7 @@ JsonValue typed_value(const Field& field, std::string_view typed) {
                        (field.kind == FieldKind::draft && !typed.starts_with('['));
   std::string json(trimmed(typed));
   if (is_text && !json.starts_with('"')) json = json_quote(typed);
-  if (!is_text) json = with_json_numbers(json);
+  if (!is_text) json = with_json_numbers(json, field.low >= 0 && field.high <= 1);
   if (!is_text && field.kind != FieldKind::number && !json.starts_with('[') && !json.starts_with('{'))
     json = fmt::format("[{}]", json);
   try {
@@ -87,17 +105,35 @@ std::vector<std::string> color_space_first(std::vector<std::string> overrides) {
   return overrides;
 }
 
+std::string_view without_unit(std::string_view name) {
+  return name.ends_with("_deg") ? name.substr(0, name.size() - 4) : name;
+}
+
+// How far a typed path is from a field: by its whole path or by its key alone, with or without the unit.
+size_t path_distance(std::string_view typed, const Field& field) {
+  const size_t dot = typed.rfind('.');
+  const std::string_view group = dot == std::string_view::npos ? std::string_view() : typed.substr(0, dot);
+  const std::string_view key = dot == std::string_view::npos ? typed : typed.substr(dot + 1);
+  const size_t by_key = std::min(name_distance(key, field.key), name_distance(key, without_unit(field.key)));
+  // A group that was typed tells of two families which; one that was not is no fault of the name.
+  const size_t by_group =
+      group.empty() || group == field.group ? 0 : std::min<size_t>(name_distance(group, field.group), 3);
+  return std::min(by_key + by_group, name_distance(typed, field.path));
+}
+
 std::string path_help(const std::string& path) {
-  std::vector<std::string> paths;
-  for (const Field& field : fields()) {
-    if (field.family == &Look::warp && (field.key == path || field.key == path + "_deg"))
-      return fmt::format("did you mean warp.{0} or weft.{0}?", field.key);
-    if (field.path == path + "_deg" || field.path == "weave." + path)
-      return fmt::format("did you mean {}?", field.path);
-    paths.push_back(field.path);
-  }
   if (path == "inherits") return "choose the look itself instead";
-  return suggestion(path, paths);
+  constexpr size_t most_named = 4;
+  std::vector<std::pair<size_t, const Field*>> ranked;
+  for (const Field& field : fields()) ranked.emplace_back(path_distance(path, field), &field);
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const size_t near = std::clamp<size_t>(path.size() / 3, 1, 4);
+  std::vector<std::string> named;
+  for (const auto& [distance, field] : ranked)
+    if (distance == ranked[0].first && distance <= near && named.size() < most_named) named.push_back(field->path);
+  if (!named.empty()) return fmt::format("did you mean {}?", fmt::join(named, " or "));
+  for (size_t i = 0; i < most_named; ++i) named.push_back(ranked[i].second->path);
+  return fmt::format("the nearest are {}; sateen look schema --fields lists all", fmt::join(named, ", "));
 }
 
 }  // namespace
@@ -131,12 +167,14 @@ std::string key_help(const std::string& key, const std::string& group) {
 std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::vector<std::string>& overrides) {
   Look changed = look;
   std::vector<Diagnostic> complaints;
+  bool any_missing = false;
   std::vector<std::pair<std::string, std::string>> set;  // path of a field and the text that set it
-  const auto complain = [&](const std::string& text, std::string message, std::string help) {
+  const auto complain = [&](const std::string& text, std::string message, std::string help, bool missing = false) {
     Diagnostic d;
     d.file = "--set " + shown_name(text);
     d.message = std::move(message);
     d.help = std::move(help);
+    any_missing = any_missing || missing;
     complaints.push_back(std::move(d));
   };
   for (const std::string& text : color_space_first(overrides)) {
@@ -151,9 +189,9 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
       complain(text, "there is no field " + shown_name(path), path_help(path));
       continue;
     }
-    const Report report = [&](const JsonPlace&, std::string message, std::string help) {
-      complain(text, std::move(message), std::move(help));
-    };
+    const Report report{[&](const JsonPlace&, std::string message, std::string help, bool missing) {
+      complain(text, std::move(message), std::move(help), missing);
+    }};
     const Look before = changed;
     const JsonValue typed = typed_value(*field, std::string_view(text).substr(equals + 1));
     if (!set_field(changed, *field, with_path_from_here(typed, changed.file), path, report)) continue;
@@ -173,14 +211,15 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
         if (named.find('/') != std::string::npos)
           named = std::filesystem::absolute(found).lexically_normal().string();
       } catch (const InputError& error) {
-        complain(text, fmt::format("there is no look {}", shown_name(named)), error.diagnostics.front().help);
+        complain(text, fmt::format("there is no look {}", shown_name(named)), error.diagnostics.front().help, true);
       }
     }
     if (field->kind == FieldKind::draft) {
       try {
-        settle_draft(changed.weave.draft, {});
+        settle_draft(changed.weave, {});
       } catch (const InputError& error) {
         complaints.insert(complaints.end(), error.diagnostics.begin(), error.diagnostics.end());
+        any_missing = any_missing || error.kind == InputError::Kind::unreadable;
       }
     }
     if (field->is_shorthand()) {
@@ -197,7 +236,8 @@ std::vector<std::string> apply_overrides_naming_fields(Look& look, const std::ve
         if (std::find(paths.begin(), paths.end(), path) != paths.end()) culprit = text;
       complain(culprit, std::move(message), std::move(help));
     });
-  if (!complaints.empty()) throw InputError(InputError::Kind::wrong, std::move(complaints));
+  if (!complaints.empty())
+    throw InputError(any_missing ? InputError::Kind::unreadable : InputError::Kind::wrong, std::move(complaints));
   look = std::move(changed);
   std::vector<std::string> paths;
   for (const auto& [path, text] : set) paths.push_back(path);

@@ -60,9 +60,10 @@ class LayerReader {
   }
 
  private:
-  void complain(const JsonPlace& place, std::string message, std::string help) {
-    if (complaints_.size() < most_complaints)
-      complaints_.push_back(diagnostic_at(document_, place, std::move(message), std::move(help)));
+  void complain(const JsonPlace& place, std::string message, std::string help, bool missing = false) {
+    if (complaints_.size() == most_complaints) return;
+    complaints_.push_back(diagnostic_at(document_, place, std::move(message), std::move(help)));
+    any_missing_ = any_missing_ || missing;
   }
 
   void finish() {
@@ -70,7 +71,8 @@ class LayerReader {
       return std::pair(a.line, a.column) < std::pair(b.line, b.column);
     });
     complaints_.insert(complaints_.end(), parent_complaints_.begin(), parent_complaints_.end());
-    if (!complaints_.empty()) throw InputError(InputError::Kind::wrong, std::move(complaints_));
+    if (!complaints_.empty())
+      throw InputError(any_missing_ ? InputError::Kind::unreadable : InputError::Kind::wrong, std::move(complaints_));
   }
 
   void read_parent() {
@@ -84,7 +86,7 @@ class LayerReader {
     } catch (const InputError& error) {
       return complain(parent->place,
                       fmt::format("inherits from {}, but there is no such look", shown_name(parent->text)),
-                      error.diagnostics.front().help);
+                      error.diagnostics.front().help, true);
     }
     std::error_code ignored;
     const fs::path canonical = fs::weakly_canonical(path, ignored);
@@ -101,6 +103,7 @@ class LayerReader {
       layer_ = read_layer(reading_, read_text_file(path, json_most_bytes), path.string());
     } catch (const InputError& error) {
       parent_complaints_ = error.diagnostics;
+      any_missing_ = error.kind == InputError::Kind::unreadable;
     }
     const Look defaults;
     for (size_t i = 0; i < fields().size(); ++i) {
@@ -152,22 +155,23 @@ class LayerReader {
   }
 
   void read_field(const Field& field, const JsonValue& item) {
-    const Report report = [&](const JsonPlace& place, std::string message, std::string help) {
-      complain(place, std::move(message), std::move(help));
-    };
+    const Report report{[&](const JsonPlace& place, std::string message, std::string help, bool missing) {
+      complain(place, std::move(message), std::move(help), missing);
+    }};
     given_.push_back({field.path, item.place});
     if (!set_field(layer_.look, field, item, field.key, report)) return;
     if (field.kind == FieldKind::look_name) settle_look_name(field, item);
     for (auto& [path, texture] : layer_.look.textures)
       if (texture.origin.empty()) texture.origin = fmt::format("{}:{}", document_.file, item.place.line);
     if (field.kind == FieldKind::draft) try {
-        settle_draft(layer_.look.weave.draft, document_.file);
+        settle_draft(layer_.look.weave, document_.file);
       } catch (const InputError& error) {
         for (const Diagnostic& fault : error.diagnostics)
           if (fault.line > 0)
             parent_complaints_.push_back(fault);
           else
-            complain(item.place, fault.message, fault.help);
+            complain(item.place, (fault.file.empty() ? "" : fault.file + ": ") + fault.message, fault.help,
+                     error.kind == InputError::Kind::unreadable);
       }
     set_origin(field.path, item.place);
   }
@@ -189,7 +193,7 @@ class LayerReader {
         });
     } catch (const InputError& error) {
       complain(item.place, fmt::format("{} is {}, but there is no such look", field.key, shown_name(item.text)),
-               error.diagnostics.front().help);
+               error.diagnostics.front().help, true);
     }
   }
 
@@ -231,6 +235,7 @@ class LayerReader {
   Reading& reading_;
   JsonDocument document_;
   std::vector<Diagnostic> complaints_, parent_complaints_;
+  bool any_missing_ = false;  // a file that the look names
   Layer layer_;
   std::vector<std::pair<std::string, JsonPlace>> given_;
   std::vector<std::pair<const Field*, const JsonValue*>> shorthands_;

@@ -19,8 +19,8 @@ struct Reader {
   const Report& report;
   bool good = true;
 
-  void fault(const JsonPlace& place, std::string message, std::string help = {}) {
-    report(place, std::move(message), std::move(help));
+  void fault(const JsonPlace& place, std::string message, std::string help = {}, bool missing = false) {
+    report(place, std::move(message), std::move(help), missing);
     good = false;
   }
 
@@ -66,12 +66,12 @@ void settle_path(Reader& reader, TextureValue& texture, const JsonValue& item, c
   if (!texture_files(texture.path).empty()) return;
   if (is_udim(texture.path))
     return reader.fault(item.place, fmt::format("there is no texture {} of any number", shown_name(item.text)),
-                        "<UDIM> stands for 1001, 1002 ... in the file's name");
+                        "<UDIM> stands for 1001, 1002 ... in the file's name", true);
   const bool exists = fs::exists(path, code);
   reader.fault(item.place,
                exists ? fmt::format("the texture {} is not a regular file", shown_name(item.text))
                       : fmt::format("there is no texture {}", shown_name(item.text)),
-               exists ? "" : nearest_file(path));
+               exists ? "" : nearest_file(path), true);
 }
 
 }  // namespace

@@ -3,14 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bitset>
 #include <charconv>
 #include <map>
 #include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/nearest_name.h"
 #include "look/json.h"
+#include "look/wif_drawdown.h"
+#include "look/wif_text.h"
 
 namespace sateen {
 
@@ -18,216 +20,315 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t most_bytes = 4u << 20;
-constexpr size_t most_faults = 20;
+constexpr std::uint64_t most_bytes = 64u << 20;
+const char* const what_a_draft_needs = "a draft needs THREADING and LIFTPLAN, or THREADING, TIEUP and TREADLING";
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
+std::string upper(std::string name) {
+  for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
+  return name;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
+/// Numbers by thread (or, in a tie-up, by treadle), each with the line that it came from.
+struct NumberLists {
+  std::map<int, WifNumbers> rows;
+  bool from_zero = false;
 
-/// One "key=value" with its place.
-struct Entry {
-  std::string_view key, value, line;
-  int number = 0;
+  /// Whether any thread has a number but 0, which is none.
+  bool any() const {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const auto& row) { return !row.second.empty() && row.second.back() > 0; });
+  }
+  bool holds(int number) const {
+    return std::any_of(rows.begin(), rows.end(), [&](const auto& row) {
+      return std::binary_search(row.second.begin(), row.second.end(), std::uint16_t(number));
+    });
+  }
+  void drop_zeros() {
+    for (auto& [thread, numbers] : rows)
+      if (!numbers.empty() && numbers.front() == 0) numbers.erase(numbers.begin());
+  }
+  void shift() {
+    for (auto& [thread, numbers] : rows)
+      for (std::uint16_t& n : numbers) ++n;
+  }
 };
-using Section = std::vector<Entry>;
 
 class WifReader {
  public:
-  WifReader(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+  WifReader(const std::string& text, const std::string& file) : text_(text, file), file_(file) {}
 
-  Draft read() {
-    split();
-    if (!sections_.contains("wif"))
-      fault(1, {}, {}, "there is no section [WIF], expected a Weaving Information File",
-            "a draft can also be written into the look: plain, twill 3/1, rows of x and .");
-    finish();
-    const bool rising = setting_is_on("weaving", "rising shed", true);
-    const Lists threading = lists("threading");
-    const bool by_lifts = sections_.contains("liftplan");
-    const Lists lifts = by_lifts ? lists("liftplan") : treadled();
-    const int ends = count("warp", threading), picks = count("weft", lifts);
-    finish();
-    Draft draft{ends, picks, std::vector<std::uint8_t>(size_t(ends) * size_t(picks))};
-    for (int pick = 1; pick <= picks; ++pick) {
-      const auto lifted = lifts.find(pick);
-      for (int end = 1; end <= ends; ++end) {
-        const auto shafts = threading.find(end);
-        const bool up = shafts != threading.end() && lifted != lifts.end() && (shafts->second & lifted->second).any();
-        draft.warp_up[size_t(picks - pick) * size_t(ends) + size_t(ends - end)] = up == rising;
-      }
-    }
-    Draft smallest = smallest_repeat(draft);
-    if (smallest.ends > most_draft_side || smallest.picks > most_draft_side)
-      fault(0, {}, {},
-            fmt::format("repeats over {} ends and {} picks, expected at most {} of each", smallest.ends,
-                        smallest.picks, most_draft_side),
-            {});
-    finish();
-    return smallest;
+  WifDraft read() {
+    const bool rising = yes_no("weaving", "rising shed", true);
+    threading_ = lists("threading");
+    read_lifts();
+    text_.finish();
+    settle_zeros();
+    if (!threading_.any()) text_.fault("no end of [THREADING] is on a shaft");
+    if (!lifts_.any()) text_.fault(fmt::format("no pick of {} lifts a shaft", lifts_name_));
+    text_.finish();
+    const Range ends = range("warp", threading_, "ends", "are on a shaft", "are on no shaft");
+    const Range picks = range("weft", lifts_, "picks", "lift a shaft", "lift none");
+    text_.finish();
+    tell_colors();
+    std::vector<WifNumbers> columns, rows;
+    for (int end = ends.first; end <= ends.last; ++end) columns.push_back(numbers_of(threading_, end));
+    for (int pick = picks.first; pick <= picks.last; ++pick) rows.push_back(numbers_of(lifts_, pick));
+    const WifRepeat repeat = wif_repeat(columns, rows);
+    if (repeat.ends > most_draft_side || repeat.picks > most_draft_side)
+      text_.fault(fmt::format("repeats over {} ends and {} picks, expected at most {} of each", repeat.ends,
+                              repeat.picks, most_draft_side),
+                  "keep the lines of one repeat in THREADING, TREADLING and LIFTPLAN");
+    text_.finish();
+    return {wif_drawdown(repeat, rising), std::move(warnings_)};
   }
 
  private:
-  using Numbers = std::bitset<most_wif_shafts + 1>;
-  using Lists = std::map<int, Numbers>;  // shafts or treadles by thread
+  struct Range {
+    int first = 1, last = 1;
+  };
 
-  void fault(int number, std::string_view line, std::string_view at, std::string message, std::string help) {
-    if (faults_.size() == most_faults) return;
-    Diagnostic d;
-    d.file = file_;
-    d.line = number;
-    d.source_line = std::string(line.substr(0, 200));
-    d.column = at.data() && line.data() ? int(at.data() - line.data()) + 1 : 1;
-    d.width = std::max(1, int(std::min<size_t>(at.size(), 40)));
-    d.message = std::move(message);
-    d.help = std::move(help);
-    faults_.push_back(std::move(d));
-  }
-  void fault(const Entry& e, std::string_view at, std::string message, std::string help = {}) {
-    fault(e.number, e.line, at, std::move(message), std::move(help));
-  }
-  void finish() const {
-    if (!faults_.empty()) throw InputError(InputError::Kind::wrong, faults_);
-  }
-
-  void split() {
-    std::string_view left = text_;
-    Section* current = nullptr;
-    for (int number = 1; !left.empty(); ++number) {
-      const size_t end = left.find('\n');
-      const std::string_view line = left.substr(0, end), body = trimmed(line);
-      left.remove_prefix(end == std::string_view::npos ? left.size() : end + 1);
-      if (body.empty() || body[0] == ';') continue;
-      if (body[0] == '[') {
-        if (body.back() != ']') fault(number, line, body, "the section's name has no ], expected [NAME]", {});
-        current = &sections_[lower(trimmed(body.substr(1, body.find(']') - 1)))];
-        continue;
-      }
-      const size_t equals = body.find('=');
-      if (equals == std::string_view::npos || !current) {
-        fault(number, line, body,
-              !current ? "stands before the first section, expected [WIF]"
-                       : "has no =, expected key=value, [SECTION] or ; and a comment",
-              {});
-        if (!current) return;  // no WIF at all: one complaint is enough
-        continue;
-      }
-      current->push_back({trimmed(body.substr(0, equals)), trimmed(body.substr(equals + 1)), line, number});
-    }
+  void warn(std::string text) { warnings_.push_back(fmt::format("{}: {}", file_, text)); }
+  void warn(const WifEntry& at, std::string text) {
+    warnings_.push_back(fmt::format("{}:{}: {}", file_, at.number, text));
   }
 
   /// A whole number from 0 to `most`; complains where it is none.
-  std::optional<int> integer(const Entry& e, std::string_view text, const char* what, int most) {
+  std::optional<int> integer(const WifEntry& e, std::string_view text, const char* what, int most) {
     int value = 0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (code == std::errc() && end == text.data() + text.size() && value >= 0 && value <= most) return value;
-    fault(e, text,
-          fmt::format("{} is {}, expected a whole number from 0 to {}", what,
-                      text.empty() ? "missing" : shown_name(text), most));
+    text_.fault(e, text,
+                fmt::format("{} is {}, expected a whole number from 0 to {}", what,
+                            text.empty() ? "missing" : shown_name(text), most));
     return {};
   }
 
-  Lists lists(const std::string& name) {
-    Lists all;
-    const auto section = sections_.find(name);
-    if (section == sections_.end()) {
-      fault(0, {}, {}, fmt::format("there is no section [{}]", upper(name)),
-            "a draft needs THREADING and LIFTPLAN, or THREADING, TIEUP and TREADLING");
+  NumberLists lists(const std::string& name) {
+    NumberLists all;
+    const WifSection* section = text_.used(name);
+    if (!section) {
+      if (text_.find(name))
+        text_.fault(fmt::format("[CONTENTS] says that {} is not used, and nothing else tells it", upper(name)),
+                    what_a_draft_needs);
+      else
+        text_.fault(fmt::format("there is no section [{}]", upper(name)), near(name));
       return all;
     }
-    for (const Entry& e : section->second) {
-      const std::optional<int> thread = integer(e, e.key, "the number before =", most_wif_threads);
-      if (!thread) continue;
-      if (*thread == 0) {
-        fault(e, e.key, "threads, shafts and treadles are counted from 1");
+    std::map<int, const WifEntry*> places;
+    for (const WifEntry& e : section->entries) {
+      const std::optional<int> key = integer(e, e.key, "the number before =", most_wif_threads);
+      if (!key) continue;
+      if (*key == 0 && &e == &section->entries.front()) all.from_zero = true;
+      if (*key == 0 && !all.from_zero) {
+        text_.fault(e, e.key, "threads, shafts and treadles are counted from 1");
         continue;
       }
-      Numbers& numbers = all[*thread];
-      std::string_view left = trimmed(e.value.substr(0, e.value.find(';')));
-      while (!left.empty()) {
-        const size_t comma = left.find(',');
-        if (const auto n = integer(e, trimmed(left.substr(0, comma)), "the number in the list", most_wif_shafts))
-          numbers.set(size_t(*n));
-        left.remove_prefix(comma == std::string_view::npos ? left.size() : comma + 1);
-      }
-      numbers.reset(0);  // 0: on no shaft
+      const int thread = *key + all.from_zero;
+      WifNumbers numbers = numbers_in(e);
+      const auto [place, first] = places.try_emplace(thread, &e);
+      if (!first && numbers != all.rows[thread])
+        text_.fault(e, e.key, fmt::format("{} is given twice, first in line {}", *key, place->second->number));
+      else
+        all.rows[thread] = std::move(numbers);
     }
+    if (all.from_zero) warn(fmt::format("[{}] counts from 0, which is taken as its first", upper(name)));
     return all;
   }
 
+  /// The numbers of one line, between commas or blanks, sorted and each once.
+  WifNumbers numbers_in(const WifEntry& e) {
+    constexpr const char* separators = ", \t";
+    WifNumbers numbers;
+    std::string_view left = e.value;
+    while (!left.empty()) {
+      const size_t end = left.find_first_of(separators);
+      const std::string_view word = left.substr(0, end);
+      const size_t next = end == std::string_view::npos ? end : left.find_first_not_of(separators, end);
+      if (const auto n = integer(e, word, "the number in the list", most_wif_shafts))
+        numbers.push_back(std::uint16_t(*n));
+      left.remove_prefix(next == std::string_view::npos ? left.size() : next);
+    }
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+  }
+
+  std::string near(const std::string& name) const {
+    std::vector<std::string> unknown;
+    for (const std::string& section : text_.section_names())
+      if (section != "threading" && section != "weaving") unknown.push_back(section);
+    const std::string like = nearest_name(name, unknown);
+    return like.empty() ? what_a_draft_needs : fmt::format("there is a section [{}]", upper(like));
+  }
+
+  /// Shafts that each pick lifts: the one of the two ways that [CONTENTS] names and that lifts anything.
+  void read_lifts() {
+    const WifSection *plan = text_.used("liftplan"), *treadling = text_.used("treadling"),
+                     *tieup = text_.used("tieup");
+    const bool either = plan && treadling && tieup;
+    const size_t faults = text_.faults.size(), warnings = warnings_.size();
+    if (!plan && !(treadling && tieup)) return complain_of_no_plan();
+    if (plan) lifts_ = lists("liftplan");
+    lifts_name_ = "[LIFTPLAN]";
+    const bool empty = plan && !lifts_.any() && text_.faults.size() == faults;
+    const bool treadles_named = either && treadling->named && tieup->named && !plan->named;
+    if (plan && !(either && (empty || treadles_named))) {
+      if (either) compare_with_treadles();
+      return;
+    }
+    text_.faults.resize(faults);  // those of a plan that is not used
+    warnings_.resize(warnings);
+    lifts_ = treadled();
+    lifts_name_ = "[TREADLING]";
+    if (either && !empty) warn("[CONTENTS] names TREADLING and TIEUP; LIFTPLAN, which it does not name, is not used");
+  }
+
+  void complain_of_no_plan() {
+    const bool some = text_.used("treadling") || text_.used("tieup");
+    lists(!some ? "liftplan" : text_.used("treadling") ? "tieup" : "treadling");
+  }
+
+  /// Both ways are there, LIFTPLAN is used: says so where the other would be another cloth.
+  void compare_with_treadles() {
+    const size_t faults = text_.faults.size(), warnings = warnings_.size();
+    NumberLists other = treadled();
+    const bool sound = text_.faults.size() == faults;
+    text_.faults.resize(faults);
+    warnings_.resize(warnings);
+    NumberLists own = lifts_;
+    own.drop_zeros();
+    other.drop_zeros();
+    const auto empty_row = [](const auto& row) { return row.second.empty(); };
+    std::erase_if(own.rows, empty_row);
+    std::erase_if(other.rows, empty_row);
+    if (sound && other.any() && own.rows != other.rows)
+      warn("LIFTPLAN and TREADLING with TIEUP draw different cloths; LIFTPLAN is used");
+  }
+
   /// Shafts that each pick lifts, by way of its treadles.
-  Lists treadled() {
-    const Lists treadling = lists("treadling"), tieup = lists("tieup");
-    Lists lifts;
-    for (const auto& [pick, treadles] : treadling)
-      for (const auto& [treadle, shafts] : tieup)
-        if (treadle <= most_wif_shafts && treadles[size_t(treadle)]) lifts[pick] |= shafts;
+  NumberLists treadled() {
+    NumberLists treadling = lists("treadling");
+    NumberLists tieup = lists("tieup");
+    const WifEntry* told = text_.setting("weaving", "treadles");
+    if (tieup.from_zero) {
+      treadling.shift();
+    } else {
+      treadling.drop_zeros();
+    }
+    NumberLists lifts;
+    lifts.from_zero = treadling.from_zero;
+    std::map<int, int> loose;  // treadles without a tie, and the first pick that uses each
+    for (const auto& [pick, treadles] : treadling.rows) {
+      WifNumbers& row = lifts.rows[pick];
+      for (const std::uint16_t treadle : treadles) {
+        const auto tied = tieup.rows.find(treadle);
+        if (tied == tieup.rows.end() || tied->second.empty())
+          loose.try_emplace(treadle, pick);
+        else
+          row.insert(row.end(), tied->second.begin(), tied->second.end());
+      }
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
+    }
+    for (const auto& [treadle, pick] : loose)
+      warn(fmt::format("treadle {}, first used by pick {}, is tied to no shaft{}: it lifts nothing",
+                       treadle - int(tieup.from_zero), pick - int(treadling.from_zero),
+                       told ? fmt::format(" (Treadles={})", told->value) : ""));
     return lifts;
   }
 
-  /// Threads= of WARP or WEFT; without it the largest thread that is named.
-  int count(const std::string& name, const Lists& lists) {
-    const int named = lists.empty() ? 0 : lists.rbegin()->first;
-    if (const Entry* e = setting(name, "threads")) {
-      const std::optional<int> told = integer(*e, e->value, "Threads", most_wif_threads);
-      if (told && *told >= std::max(named, 1)) return *told;
-      if (told)
-        fault(*e, e->value, fmt::format("[{}] has {} threads, but thread {} is used", upper(name), *told, named));
-      return 1;
+  /// In a file that counts its threads from 0 a shaft 0 may be the first, or none.
+  void settle_zeros() {
+    const bool zero = threading_.holds(0) || lifts_.holds(0);
+    if (!zero) return;
+    if (!threading_.from_zero) {
+      threading_.drop_zeros();
+      lifts_.drop_zeros();
+      return;
     }
-    if (named == 0) fault(0, {}, {}, fmt::format("no thread of the {} is named", name), {});
-    return std::max(named, 1);
+    const WifEntry* e = text_.setting("weaving", "shafts");
+    const std::optional<int> shafts = e ? integer(*e, e->value, "Shafts", most_wif_shafts) : std::nullopt;
+    if (!shafts || threading_.holds(*shafts) || lifts_.holds(*shafts))
+      return text_.fault("counts threads from 0, and whether shaft 0 is the first or none cannot be told",
+                         "count threads, shafts and treadles from 1");
+    threading_.shift();
+    lifts_.shift();
   }
 
-  const Entry* setting(const std::string& section, const std::string& key) const {
-    const auto at = sections_.find(section);
-    if (at == sections_.end()) return nullptr;
-    for (const Entry& e : at->second)
-      if (lower(e.key) == key) return &e;
-    return nullptr;
+  /// The threads that are drawn: without those at either end that are on no shaft, or lift none.
+  Range range(const std::string& section, const NumberLists& lists, const char* things, const char* drawn,
+              const char* idle_are) {
+    Range r{0, 0};
+    int named = 0;
+    for (const auto& [thread, numbers] : lists.rows) {
+      named = thread;
+      if (numbers.empty()) continue;
+      if (r.first == 0) r.first = thread;
+      r.last = thread;
+    }
+    int count = named;
+    if (const WifEntry* e = text_.setting(section, "threads")) {
+      const std::optional<int> told = integer(*e, e->value, "Threads", 1 << 24);
+      count = std::max(told.value_or(count), named);
+      if (told && *told < named)
+        warn(*e, fmt::format("[{}] says {} threads, but {} are written, which count", upper(section), *told, named));
+    }
+    if (r.first > 1 || r.last < count)
+      warn(fmt::format("of {} {} only {} to {} {}: the others are left out", count, things, r.first, r.last, drawn));
+    int idle = 0;
+    for (int thread = r.first; thread <= r.last; ++thread) idle += numbers_of(lists, thread).empty();
+    if (idle > 0) warn(fmt::format("{} of the {} {} {}", idle, r.last - r.first + 1, things, idle_are));
+    return r;
   }
 
-  bool setting_is_on(const std::string& section, const std::string& key, bool otherwise) const {
-    const Entry* e = setting(section, key);
+  static WifNumbers numbers_of(const NumberLists& lists, int thread) {
+    const auto row = lists.rows.find(thread);
+    return row == lists.rows.end() ? WifNumbers() : row->second;
+  }
+
+  void tell_colors() {
+    std::string names;
+    for (const std::string name : {"color table", "warp colors", "weft colors"})
+      if (const WifSection* section = text_.used(name); section && !section->entries.empty())
+        names += (names.empty() ? "" : ", ") + upper(name);
+    if (!names.empty())
+      warn(fmt::format("the colours of its threads ({}) are not used yet, those of the look are", names));
+  }
+
+  bool yes_no(const std::string& section, const std::string& key, bool otherwise) {
+    const WifEntry* e = text_.setting(section, key);
     if (!e) return otherwise;
-    const std::string value = lower(e->value);
-    return value == "yes" || value == "true" || value == "on" || value == "1";
+    const int said = wif_yes_no(e->value);
+    if (said < 0)
+      text_.fault(*e, e->value, fmt::format("{} is {}, expected {}", e->key, shown_name(e->value), wif_yes_no_words));
+    return said == 1;
   }
 
-  static std::string upper(std::string name) {
-    for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-  }
-
-  const std::string& text_;
+  WifText text_;
   const std::string& file_;
-  std::map<std::string, Section> sections_;
-  std::vector<Diagnostic> faults_;
+  NumberLists threading_, lifts_;
+  std::string lifts_name_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-Draft parse_wif(const std::string& text, const std::string& file) {
+WifDraft parse_wif(const std::string& text, const std::string& file) {
   return WifReader(text, file).read();
 }
 
-Draft read_wif(const fs::path& path) {
+WifDraft read_wif(const fs::path& path) {
   return parse_wif(read_text_file(path, most_bytes), path.string());
 }
 
-void settle_draft(std::vector<std::string>& text, const std::string& look_file) {
-  if (!is_draft_file(text)) return;
+void settle_draft(WeaveSettings& weave, const std::string& look_file) {
+  weave.draft_warnings.clear();
+  if (!is_draft_file(weave.draft)) return;
   std::error_code ignored;
-  const fs::path beside = fs::path(look_file).parent_path() / text[0];
-  text = draft_rows(read_wif(fs::is_regular_file(beside, ignored) ? beside : fs::path(text[0])));
+  const fs::path beside = fs::path(look_file).parent_path() / weave.draft[0];
+  WifDraft read = read_wif(fs::is_regular_file(beside, ignored) ? beside : fs::path(weave.draft[0]));
+  weave.draft = draft_rows(read.draft);
+  weave.draft_warnings = std::move(read.warnings);
 }
 
 }  // namespace sateen

@@ -210,6 +210,7 @@ Environment read_light(const SceneSettings& settings, const ColorManager& colors
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report) {
   const Look look = read_look(settings.look, settings.look_overrides);
   report.look = look;
+  report.warnings = look.weave.draft_warnings;
   if (!look.textures.contains("warp_angle_deg")) report.look.warp_angle_deg += settings.warp_angle_deg;
   report.look_hash = look_hash(report.look);
   const auto add_hash = [&](const Look& other) {

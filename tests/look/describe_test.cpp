@@ -33,7 +33,7 @@ TEST(WriteLook, RoundTripsRandomLooksBitByBit) {
     look.title = "\"quoted\" \\ \n\t\x01 \xe2\x82\xac";
     look.masking_width_deg = random(5, 60);
     look.warp_angle_deg = random(-180, 180);
-    look.weave = {{"x..", ".x.", "..x"}, random(0.5, 500), random(0.5, 500), random(0, 0.4), random(0, 1)};
+    look.weave = {{"x..", ".x.", "..x"}, random(0.5, 500), random(0.5, 500), random(0, 0.4), random(0, 1), {}};
     for (ThreadFamily* family : {&look.warp, &look.weft}) {
       family->eta = random(1, 3);
       family->k_d = random(0, 1) * 1e-30f;

@@ -126,7 +126,7 @@ TEST(Json, RefusesBytesThatAreNoUtf8) {
 
 TEST(Json, RefusesAZeroByteInsteadOfStoppingThere) {
   EXPECT_EQ(fault(std::string("{}\0 x", 5)),
-            "a.json:1:3: error: found a zero byte, expected text\n    1 | {}. x\n      |   ^");
+            "a.json:1:3: error: found a zero byte, expected text\n    1 | {}\\x00 x\n      |   ^^^^");
 }
 
 TEST(Json, NamesBothPlacesOfAKeyGivenTwice) {
@@ -171,7 +171,7 @@ TEST(Json, QuotesAnyUtf8SuchThatItReadsBackTheSame) {
 }
 
 TEST(Json, ShowsForeignNamesWithoutControlCharactersAndCut) {
-  EXPECT_EQ(shown_name("a\x1b[2J"), "a\\u001b[2J");
+  EXPECT_EQ(shown_name("a\x1b[2J"), "a\\x1b[2J");
   EXPECT_EQ(shown_name(""), "\"\"");
   EXPECT_EQ(shown_name(std::string(1000, 'x')), std::string(60, 'x') + "...");
   EXPECT_EQ(shown_name(std::string(59, 'x') + "\xe2\x82\xac"), std::string(59, 'x') + "...");

@@ -60,12 +60,7 @@ TEST(Overrides, ReportAllFaultsAndLeaveTheLookAlone) {
   EXPECT_EQ(message,
             "--set warp.eta=9: error: warp.eta is 9, expected 1 to 3\n"
             "--set nothing=1: error: there is no field nothing\n"
-            "  help: known: title, description, source, color_space, color, masking_width_deg, warp_angle_deg, back, "
-            "pattern.mask, pattern.look, "
-            "warp.eta, warp.k_d, warp.gamma_s_deg, warp.gamma_v_deg, warp.coverage, warp.A, warp.color, "
-            "warp.offsets_deg, warp.lengths, weft.eta, weft.k_d, weft.gamma_s_deg, weft.gamma_v_deg, weft.coverage, "
-            "weft.A, weft.color, weft.offsets_deg, weft.lengths, weave.draft, weave.warp_per_cm, weave.weft_per_cm, "
-            "weave.irregularity, weave.slubs\n"
+            "  help: the nearest are title, source, color, pattern.look; sateen look schema --fields lists all\n"
             "--set weft.k_d=2: error: weft.k_d is 2, expected 0 to 1\n"
             "  help: did you mean 0.2?");
   EXPECT_EQ(all_values(look), before);
