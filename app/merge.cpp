@@ -40,8 +40,9 @@ int run_merge(const std::vector<std::string>& words) {
   read_render_flags(sum.words, flags);
   PictureFlags& p = flags.picture;
   p.outputs = outputs;
-  keep_effects(p, sum.facts);
-  auto [colors, report, scene, job] = assemble_picture(p, "merge " + shell_line(words), false);
+  p.verify_plan = false;
+  keep_strategy(p, sum.facts);
+  auto [colors, report, scene, job] = assemble_picture(p, "merge " + shell_line(words), &sum);
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;
   job.first_sample = int(sum.film.first_sample);

@@ -16,7 +16,7 @@ namespace sateen {
 namespace {
 
 // The number counts up with every change of what follows.
-constexpr char magic[16] = "sateen render 2";
+constexpr char magic[16] = "sateen render 3";
 constexpr std::uint64_t largest_file = std::uint64_t(1) << 36;
 
 /// Values to bytes and back, in one order for both, so that writing and reading cannot differ.
@@ -95,6 +95,8 @@ class Reader {
 template <class Stream, class C>
 void exchange(Stream& s, C& c) {
   s.array(c.words);
+  s.value(c.plan);
+  s.value(c.candidates_reason);
   s.value(c.film.width);
   s.value(c.film.height);
   s.value(c.film.first_sample);

@@ -73,7 +73,7 @@ RenderSettings settings_for(const ErrorScene& scene, const CandidateCounts& cand
 
 void judge(const ErrorScene& which, int width, int height, int seeds, Tally& tally) {
   const Scene scene = scene_of(which, width, height);
-  const CandidateCounts candidates = choose_candidates(scene, {}, 1, 0).candidates;
+  const CandidateCounts candidates = choose_candidates(scene, {}, default_error_floor, 1, 0).candidates;
   RenderSettings settings = settings_for(which, candidates, 777, false);
   settings.stop.spp = spp * times;
   Film reference(width, height, false);
@@ -149,7 +149,7 @@ struct CoarseTally {
 
 void judge_coarse(const ErrorScene& which, int width, int height, int seeds, CoarseTally& tally) {
   const Scene scene = scene_of(which, width, height);
-  const CandidateCounts candidates = choose_candidates(scene, {}, 1, 0).candidates;
+  const CandidateCounts candidates = choose_candidates(scene, {}, default_error_floor, 1, 0).candidates;
   RenderSettings settings = settings_for(which, candidates, 777, false);
   settings.stop.spp = 1024;
   Film reference(width, height, false);
