@@ -5,32 +5,59 @@
 
 namespace sateen::app {
 
-Assembly assemble_picture(PictureFlags& flags, const std::string& command_line, bool pilots) {
+Assembly assemble_picture(PictureFlags& flags, const std::string& command_line, const Checkpoint* begun) {
   set_exr_threads(flags.render.threads);
   ColorManager colors(flags.ocio, flags.working);
   flags.display = settle_display(flags.display, colors);
   SceneReport report;
   Scene scene = assemble_scene(flags.scene, colors, report);
-  PictureJob job = plan_picture(flags, report, scene, colors, command_line, pilots);
+  PictureJob job = plan_picture(flags, report, scene, colors, command_line, begun);
   return {std::move(colors), std::move(report), std::move(scene), std::move(job)};
 }
 
+namespace {
+
+void plan_anew(const PictureFlags& flags, const SceneReport& report, double error_floor, Scene& scene,
+               PictureJob& job) {
+  const RenderSettings& r = flags.render;
+  job.plan =
+      make_plan(scene, report.look,
+                {flags.switches, r.stop.error, error_floor, r.light, r.seed, r.threads, flags.scene.from_all_around});
+  if (flags.verify_plan) job.verdicts = verify_plan(scene, job.plan, r.light, error_floor, r.seed, r.threads);
+  apply_plan(job.plan, scene, job.render.light);
+  job.candidates_reason =
+      settle_candidates(scene, flags.switches.candidates, job.render.light, error_floor, r.seed, r.threads);
+}
+
+/// As another render of the picture was planned. What the flags say besides makes it another picture, which
+/// check_same_job() tells.
+void plan_as_begun(const PictureFlags& flags, const Checkpoint& begun, double error_floor, Scene& scene,
+                   PictureJob& job) {
+  const RenderSettings& r = flags.render;
+  job.plan = read_plan(begun.plan);
+  hold_to(flags.switches, job.plan);
+  if (flags.verify_plan) job.verdicts = verify_plan(scene, job.plan, r.light, error_floor, r.seed, r.threads);
+  apply_plan(job.plan, scene, job.render.light);
+  for (const Fact& fact : begun.facts)
+    if (fact.name == "candidates") job.render.light.candidates = candidates_from_text(fact.value);
+  if (flags.switches.candidates) job.render.light.candidates = *flags.switches.candidates;
+  job.candidates_reason = begun.candidates_reason;
+}
+
+}  // namespace
+
 PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Scene& scene,
-                        const ColorManager& colors, const std::string& command_line, bool pilots) {
+                        const ColorManager& colors, const std::string& command_line, const Checkpoint* begun) {
   PictureJob job;
   job.scene = flags.scene;
   job.render = flags.render;
-  job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
-  job.render.error_floor = error_floor_at(job.exposure_ev);
-  job.plan = make_plan(scene, report.look, flags.switches, flags.render.stop.error, flags.render.light,
-                       flags.render.seed, flags.render.threads, pilots);
-  if (flags.verify_plan && pilots)
-    job.verdicts = verify_plan(scene, job.plan, flags.render.light, flags.render.seed, flags.render.threads);
-  apply_plan(job.plan, scene, job.render.light);
-  if (pilots || flags.switches.candidates)
-    job.candidates_reason = settle_candidates(scene, flags.switches.candidates, job.render.light, flags.render.seed,
-                                              flags.render.threads);
   job.display = flags.display;
+  job.exposure_ev = flags.exposure_ev.value_or(report.metered_ev);
+  const double error_floor = job.render.error_floor = error_floor_at(double(job.exposure_ev));
+  if (begun)
+    plan_as_begun(flags, *begun, error_floor, scene, job);
+  else
+    plan_anew(flags, report, error_floor, scene, job);
   job.layers = flags.layer_list;
   job.references = flags.stage.references;
   job.timings = flags.timings;
@@ -42,15 +69,9 @@ PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Sc
   return job;
 }
 
-void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts) {
+void keep_strategy(PictureFlags& flags, const std::vector<Fact>& facts) {
   for (const Fact& fact : facts)
-    if (fact.name == "bounces" && !flags.switches.bounces)
-      flags.switches.bounces = read_integer("bounces", fact.value, 0, 64);
-    else if (fact.name == "bounce share")
-      flags.switches.bounce_share = float(read_number("bounce share", fact.value, 0.001, 1));
-    else if (fact.name == "candidates" && !flags.switches.candidates)
-      flags.switches.candidates = candidates_from_text(fact.value);
-    else if (fact.name == "strategy" && flags.strategy == strategy_name(Strategy::automatic))
+    if (fact.name == "strategy" && flags.strategy == strategy_name(Strategy::automatic))
       flags.render.light.strategy = strategy_from_name(fact.value);
 }
 

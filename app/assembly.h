@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "picture_flags.h"
+#include "render/checkpoint.h"
 
 namespace sateen::app {
 
@@ -14,16 +15,17 @@ struct Assembly {
   PictureJob job;
 };
 
-/// Reads, compiles, joins and plans what the flags describe. `flags.display` is settled on the way. Without `pilots`
-/// nothing is measured: for a picture that is rendered already, whose flags keep_effects() has settled.
-Assembly assemble_picture(PictureFlags& flags, const std::string& command_line, bool pilots = true);
+/// Reads, compiles, joins and plans what the flags describe. `flags.display` is settled on the way. `begun`: another
+/// render of the picture, whose plan is taken over.
+Assembly assemble_picture(PictureFlags& flags, const std::string& command_line, const Checkpoint* begun = nullptr);
 
 /// The second half: plans a scene that has everything, takes out of it what the plan has off, and chooses how many
 /// directions what is left wants to be lit from.
 PictureJob plan_picture(const PictureFlags& flags, const SceneReport& report, Scene& scene,
-                        const ColorManager& colors, const std::string& command_line, bool pilots = true);
+                        const ColorManager& colors, const std::string& command_line,
+                        const Checkpoint* begun = nullptr);
 
-/// Holds the flags to the effects and the strategy that another render of the picture began with.
-void keep_effects(PictureFlags& flags, const std::vector<Fact>& facts);
+/// Holds the flags to the strategy that another render of the picture began with, unless they name one.
+void keep_strategy(PictureFlags& flags, const std::vector<Fact>& facts);
 
 }  // namespace sateen::app

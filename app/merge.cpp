@@ -45,8 +45,9 @@ int run_merge(const std::vector<std::string>& words) {
   read_render_flags(sum.words, flags);
   PictureFlags& p = flags.picture;
   p.outputs = outputs;
-  keep_effects(p, sum.facts);
-  auto [colors, report, scene, job] = assemble_picture(p, recorded_line("merge", words), false);
+  p.verify_plan = false;
+  keep_strategy(p, sum.facts);
+  auto [colors, report, scene, job] = assemble_picture(p, recorded_line("merge", words), &sum);
   check_not_read(to_write, config_input(p.ocio));
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;

@@ -36,8 +36,8 @@ void add_picture_flags(Command& command, PictureFlags& flags);
 /// Flags of what the renderer approximates (render/approximations.h), in the group that is open.
 void add_approximation_flags(Command& command, Approximations& to);
 
-/// Samples a pixel, dealt out by error, where no stop rule was given: the default picture ends at an error of about
-/// 3 %, which the plan works towards (default_plan_error).
+/// Samples a pixel, dealt out by error, where no stop rule was given: the default picture ends at about the error
+/// that the plan works towards (default_plan_error).
 inline constexpr int default_samples = 24;
 
 /// Settles what the flags left open once all of them are read: stop rules, strategy, effects, layers, progress,

@@ -123,6 +123,8 @@ void start(Work& work) {
     state.film.first_sample = std::uint32_t(f.first_sample);
     state.facts = sampling_facts(work.job, work.report);
     state.words = work.words;
+    state.plan = plan_json(work.job.plan);
+    state.candidates_reason = work.job.candidates_reason;
     return;
   }
   check_same_job(f.resume, state.facts, sampling_facts(work.job, work.report));
@@ -167,13 +169,14 @@ std::vector<NamedFile> inputs_of(const RenderFlags& flags) {
 }
 
 /// A picture goes on with the effects that it began with, even where a tighter error calls for more.
-void warn_of_tighter_plan(const Plan& plan) {
+void warn_of_tighter_plan(const Plan& plan, double error_asked) {
+  const double error = error_asked > 0 ? error_asked : default_plan_error;
   const std::optional<Interval>& loss = plan.of(Effect::interreflection).loss;
-  if (!loss || plan.bounces >= tracked_bounces || loss->low <= plan_allowance * plan.error) return;
+  if (!loss || plan.bounces >= tracked_bounces || loss->low <= plan_allowance * error) return;
   print_warning(fmt::format(
       "an error of {:.3g} % calls for more than {} bounces, without which E is off by {:.3g} %; the picture "
       "goes on as it began, and its error does not count that: render it anew to have it",
-      100 * plan.error, plan.bounces, 100 * loss->value));
+      100 * error, plan.bounces, 100 * loss->value));
 }
 }  // namespace
 
@@ -217,17 +220,17 @@ int run_render(const std::vector<std::string>& words) {
     if (!all.adaptive_given)
       for (const Fact& fact : begun.facts)
         if (fact.name == "adaptive") flags.render.adaptive = fact.value == "yes";
-    keep_effects(flags, begun.facts);
+    keep_strategy(flags, begun.facts);
   }
 
-  Assembly assembly = assemble_picture(flags, recorded_line("render", words));
+  Assembly assembly = assemble_picture(flags, recorded_line("render", words), all.resume.empty() ? nullptr : &begun);
   check_not_read(outputs, inputs_of(all));
   const ColorManager& colors = assembly.colors;
   const SceneReport& report = assembly.report;
   const Scene& scene = assembly.scene;
   PictureJob& job = assembly.job;
   job.first_sample = all.first_sample;
-  if (!all.resume.empty()) warn_of_tighter_plan(job.plan);
+  if (!all.resume.empty()) warn_of_tighter_plan(job.plan, flags.render.stop.error);
   print_scene(flags, job, report);
   if (!report_verdicts(job.plan, job.verdicts)) return failed;
   if (!flags.dry_run) {

@@ -122,6 +122,7 @@ class Turntable {
                                             p.scene.environment_ev, flags_.degrees);
     start_ = start_turntable(scene_, p.scene.camera, turn);
     set_turning_stage(scene_, start_, p.scene.stage);
+    p.scene.from_all_around = true;  // one plan for all frames
     job_ = plan_picture(p, report_, scene_, colors_, words);
   }
 

@@ -1,17 +1,22 @@
 #pragma once
+#include <cmath>
+
 #include "film/film.h"
 
 namespace sateen {
+
+/// Below this value, as the picture is shown, errors count as absolute and no longer as relative ones.
+inline constexpr double default_error_floor = 0.1;
+
+/// The same in the light of a scene that is shown at this exposure.
+inline double error_floor_at(double exposure_ev) {
+  return default_error_floor * std::exp2(-exposure_ev);
+}
 
 /// A value with the ends of its 95 % interval.
 struct Interval {
   double value = 0, low = 0, high = 0;
 };
-
-inline constexpr double default_error_floor = 0.1;  ///< at exposure 0
-
-/// The light below which values count as if they were as bright: 0.1 as the display shows the picture.
-double error_floor_at(double exposure_ev);
 
 /// In what a picture's errors are counted.
 struct ErrorScale {

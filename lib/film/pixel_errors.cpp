@@ -141,10 +141,6 @@ double sum_of(const std::vector<PixelError>& errors) {
 
 }  // namespace
 
-double error_floor_at(double exposure_ev) {
-  return default_error_floor * std::exp2(-exposure_ev);
-}
-
 std::vector<double> backings(const Film& film, const ErrorScale& scale) {
   return film.opaque ? std::vector<double>{0} : std::vector<double>{0, mid_grey * scale.floor};
 }

@@ -110,6 +110,7 @@ void see_ground(const Scene& scene, const GroundPoint& point, const GroundLight&
   if (keep(radiance, scratch.counts)) out.backdrop += radiance * (covered * passed);
   if (out.hit) {
     out.through_gaps += indirect.total() * (covered * passed);
+    for (int b = 0; b < tracked_bounces; ++b) out.bounced_behind.bounce[b] += indirect.bounce[b] * (covered * passed);
     return;
   }
   out.indirect = indirect;
@@ -182,7 +183,9 @@ void light_cloth(const Scene& scene, const LightSettings& settings, std::uint32_
       continue;
     }
     if (good) out[k].through_gaps += direct[n].total();
-    if (settings.bounces > 0) out[k].through_gaps += indirect[n].total();
+    if (settings.bounces == 0) continue;
+    out[k].through_gaps += indirect[n].total();
+    for (int b = 0; b < tracked_bounces; ++b) out[k].bounced_behind.bounce[b] += indirect[n].bounce[b];
   }
 }
 

@@ -9,6 +9,7 @@ struct CameraSample {
   LobeLight direct;             ///< environment light after one meeting with the first layer
   BounceLight indirect;         ///< by way of it after two, three, ... meetings with cloth or ground
   Color through_gaps{0, 0, 0};  ///< light of the layers behind the first, seen through its gaps
+  BounceLight bounced_behind;   ///< what of `through_gaps` came after two, three, ... meetings
   Color backdrop{0, 0, 0};      ///< and the direct light of the ground
   float coverage = 0;           ///< by cloth, ground and caught shadow
   float alpha = 0;              ///< 1 where a backdrop is seen, else the coverage

@@ -11,11 +11,13 @@ namespace {
 
 constexpr float flat_to = 1e-6f;   // of the size of the mesh
 constexpr float level_to = 1e-5f;  // of the size of a quad
+constexpr float most_twist = 0.01f;
 constexpr float surely = 0.01f;  // of the size of the mesh: far more than quads of a convex body are off their planes
 
 struct Plane {
   Vec3 normal, point;
   float slack = 0;  ///< how far the quad's own corners are off it, and rounding
+  float twist = 0;  ///< the same of its size
 };
 
 int corners(const std::array<std::uint32_t, 4>& quad) {
@@ -33,7 +35,9 @@ Plane plane_of(const Mesh& mesh, const std::array<std::uint32_t, 4>& quad) {
   plane.point = corners(quad) == 3 ? (a + b + c) / 3.0f : (a + b + c + d) / 4.0f;
   for (const std::uint32_t corner : quad)
     plane.slack = std::max(plane.slack, std::abs(dot(plane.normal, mesh.positions[corner] - plane.point)));
-  plane.slack += level_to * std::max((c - a).length(), (d - b).length());
+  const float size = std::max((c - a).length(), (d - b).length());
+  plane.twist = size > 0 ? plane.slack / size : 0;
+  plane.slack += level_to * size;
   return plane;
 }
 
@@ -98,7 +102,11 @@ bool is_convex(const Mesh& mesh) {
   const Welded welded = weld(mesh);
   std::vector<Plane> planes;
   planes.reserve(mesh.quads.size());
-  for (const auto& quad : mesh.quads) planes.push_back(plane_of(mesh, quad));
+  for (const auto& quad : mesh.quads) {
+    planes.push_back(plane_of(mesh, quad));
+    // Two triangles that meet in a valley.
+    if (planes.back().twist > most_twist) return false;
+  }
 
   // Each directed edge once, its twin once in the other direction.
   std::unordered_map<std::uint64_t, std::uint32_t> edges;

@@ -14,7 +14,13 @@ class Biller {
  public:
   Biller(const Scene& scene, const LightSettings& light, const BillSettings& settings, const ColorManager& colors,
          std::uint32_t seed, int threads)
-      : scene_(scene), light_(light), settings_(settings), colors_(colors), seed_(seed), threads_(threads) {
+      : scene_(scene),
+        light_(light),
+        settings_(settings),
+        colors_(colors),
+        seed_(seed),
+        threads_(threads),
+        error_floor_(error_floor_at(double(settings.exposure_ev))) {
     grid_.columns = std::min(settings.columns, scene.camera.width);
     grid_.rows = std::clamp(int(std::lround(double(grid_.columns) * scene.camera.height / scene.camera.width)), 1,
                             scene.camera.height);
@@ -24,10 +30,10 @@ class Biller {
     trace_grid(scene, light, seed, grid_, threads, [&](int i, std::span<const CameraSample> samples) {
       for (const auto& [effect, part] : parts_)
         for (const CameraSample& s : samples)
-          add_sample(less_.at(effect).pixels[size_t(i)], s.total() - part(s.direct), s.coverage, 0x1p-33);
+          add_sample(less_.at(effect).pixels[size_t(i)], s.total() - part(s.direct), s.coverage, no_grain);
     });
     whole_ = trace_picture(scene, light, seed, grid_, threads);
-    noise_ = relative_variance(whole_);
+    noise_ = relative_variance(whole_, error_floor_);
   }
 
   Image shown(const GridPicture& picture) const {
@@ -55,8 +61,8 @@ class Biller {
   BillItem billed(Effect effect, const GridPicture& less) const {
     BillItem item;
     item.effect = effect;
-    item.loss = picture_loss(differences(less, whole_));
-    if (noise_ > 0) item.variance_share = 1 - relative_variance(less) / noise_;
+    item.loss = picture_loss(differences(less, whole_, error_floor_), error_floor_);
+    if (noise_ > 0) item.variance_share = 1 - relative_variance(less, error_floor_) / noise_;
     item.without = shown(less);
     item.difference = shown();
     for (size_t i = 0; i < item.difference.pixels.size(); ++i) {
@@ -79,6 +85,7 @@ class Biller {
   const ColorManager& colors_;
   std::uint32_t seed_;
   int threads_;
+  double error_floor_;
   PixelGrid grid_;
   GridPicture whole_;
   double noise_ = 0;

@@ -11,8 +11,9 @@ namespace sateen {
 /// What one effect costs and what it is worth.
 struct BillItem {
   Effect effect = Effect::interreflection;
-  std::optional<double> time_share;  ///< of the CPU time of a sample, measured; empty for parts of the cloth model
-  std::optional<double> variance_share;  ///< of E^2; below 0 where the effect calms the picture
+  std::optional<double> time_share;      ///< of the CPU time of a sample, measured; below 0 where the effect saves
+                                         ///< time; empty for parts of the cloth model
+  std::optional<double> variance_share;  ///< of E^2; below 0 where the picture has less noise with the effect
   Interval loss;                         ///< E of the picture without it
   double visible = 0;                    ///< largest difference that its absence makes on the display, of 255
   Image without;                         ///< the picture without it, display code values, 3 channels
@@ -28,8 +29,8 @@ struct Bill {
 
 struct BillSettings {
   DisplaySettings display;  ///< settled
-  float exposure_ev = 0;
-  int columns = 64;  ///< of the small picture; its rows follow from the shape of the whole
+  float exposure_ev = 0;    ///< errors count as they are shown (film/error.h)
+  int columns = 64;         ///< of the small picture; its rows follow from the shape of the whole
   int samples = 32;
 };
 

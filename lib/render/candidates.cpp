@@ -14,13 +14,13 @@ namespace {
 constexpr int pilot_samples = 16;
 
 CandidateTrial try_candidates(const Scene& scene, LightSettings light, const CandidateCounts& candidates,
-                              std::uint32_t seed, int threads) {
+                              double error_floor, std::uint32_t seed, int threads) {
   PixelGrid grid;
   grid.samples = pilot_samples;
   light.candidates = candidates;
   light.bounces = 0;
   const GridPicture picture = trace_picture(scene, light, seed, grid, threads);
-  return {candidates, relative_variance(picture),
+  return {candidates, relative_variance(picture, error_floor),
           1e9 * direct_time(picture.work.rays, light) / (double(grid.pixels()) * grid.samples)};
 }
 
@@ -30,13 +30,14 @@ double CandidateTrial::price() const {
   return squared_error * std::pow(cost, 1.25);
 }
 
-CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, std::uint32_t seed, int threads) {
+CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, double error_floor,
+                                  std::uint32_t seed, int threads) {
   CandidateChoice choice;
   std::vector<CandidateTrial>& trials = choice.trials;
   size_t least = 0;
   const auto best = [&] { return trials[least].candidates; };
   const auto gains = [&](const CandidateCounts& candidates) {
-    trials.push_back(try_candidates(scene, light, candidates, seed, threads));
+    trials.push_back(try_candidates(scene, light, candidates, error_floor, seed, threads));
     if (trials.size() > 1 && !(trials.back().price() < trials[least].price())) return false;
     least = trials.size() - 1;
     return true;
@@ -62,10 +63,10 @@ CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light
 }
 
 std::string settle_candidates(const Scene& scene, const std::optional<CandidateCounts>& asked, LightSettings& light,
-                              std::uint32_t seed, int threads) {
+                              double error_floor, std::uint32_t seed, int threads) {
   if (asked) light.candidates = *asked;
   if (asked || light.strategy != Strategy::resampled) return {};
-  const CandidateChoice choice = choose_candidates(scene, light, seed, threads);
+  const CandidateChoice choice = choose_candidates(scene, light, error_floor, seed, threads);
   light.candidates = choice.candidates;
   return choice.reason;
 }

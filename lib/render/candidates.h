@@ -34,11 +34,12 @@ struct CandidateChoice {
 /// costs, never by a clock: the same scene gives the same choice on every machine and any number of threads, and
 /// whatever number of samples is asked for, so that ranges of one picture agree. Takes less than a tenth of a
 /// CPU-second.
-CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, std::uint32_t seed, int threads);
+CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light, double error_floor,
+                                  std::uint32_t seed, int threads);
 
 /// Sets light.candidates: to what is asked for; else of `resampled` to the pilot's choice, whose reason is returned.
 std::string settle_candidates(const Scene& scene, const std::optional<CandidateCounts>& asked, LightSettings& light,
-                              std::uint32_t seed, int threads);
+                              double error_floor, std::uint32_t seed, int threads);
 
 /// "resampled, 4 directions of the cloth's table and 16 of the map: ..." for people; of another strategy its name,
 /// and no reason where it is empty.

@@ -112,6 +112,8 @@ class Reader {
 template <class Stream, class C>
 void exchange(Stream& s, C& c) {
   s.array(c.words);
+  s.value(c.plan);
+  s.value(c.candidates_reason);
   s.value(c.film.width);
   s.value(c.film.height);
   s.value(c.film.first_sample);

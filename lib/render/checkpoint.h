@@ -12,6 +12,8 @@ namespace sateen {
 struct Checkpoint {
   std::vector<Fact> facts;         ///< sampling_facts() of its job
   std::vector<std::string> words;  ///< of the command line that began it
+  std::string plan;                ///< plan_json() of its job: who decided what, and why
+  std::string candidates_reason;   ///< of its job
   Film film;
   Course course;
 };

@@ -1,11 +1,20 @@
 #include "render/compare.h"
 
+#include <algorithm>
+
 namespace sateen {
+
+namespace {
+
+constexpr double grey_card = 0.18;  // as it is shown
+
+}  // namespace
 
 GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
                           int threads) {
   GridPicture picture;
   picture.grid = grid;
+  picture.opaque = scene.backdrop != Backdrop::none;
   picture.grid.samples = 0;
   picture.pixels.resize(size_t(grid.pixels()));
   trace_more(picture, scene, light, seed, grid.samples, threads);
@@ -19,7 +28,7 @@ void trace_more(GridPicture& picture, const Scene& scene, const LightSettings& l
   more.samples = samples - picture.grid.samples;
   const GridWork work = trace_grid(scene, light, seed, more, threads, [&](int i, std::span<const CameraSample> all) {
     FilmPixel& pixel = picture.pixels[size_t(i)];
-    for (const CameraSample& s : all) add_sample(pixel, s.total(), s.coverage, 0x1p-33);
+    for (const CameraSample& s : all) add_sample(pixel, s.total(), s.coverage, no_grain);
   });
   picture.grid.samples = samples;
   picture.work.rays.add(work.rays);
@@ -27,25 +36,29 @@ void trace_more(GridPicture& picture, const Scene& scene, const LightSettings& l
   picture.work.cpu_seconds += work.cpu_seconds;
 }
 
-std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole) {
+std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole, double error_floor) {
   std::vector<PixelLoss> all(less.pixels.size());
   const double share = double(replicates) / less.grid.samples;
+  const double card = whole.opaque ? 0 : grey_card / default_error_floor * error_floor;
   for (size_t i = 0; i < all.size(); ++i) {
+    const double alpha = pixel_coverage(whole.pixels[i]), less_alpha = pixel_coverage(less.pixels[i]);
     for (size_t r = 0; r < size_t(replicates); ++r)
-      all[i].lost[r] = (whole.pixels[i].beauty[r] - less.pixels[i].beauty[r]) * share;
+      all[i].lost[r] =
+          (whole.pixels[i].beauty[r] - less.pixels[i].beauty[r]) * share + Vec3d((less_alpha - alpha) * card);
     all[i].value = Vec3d(pixel_mean(whole.pixels[i]));
+    all[i].weight = std::clamp(std::max(alpha, less_alpha), 0.0, 1.0);
   }
   return all;
 }
 
-double relative_variance(const GridPicture& picture) {
-  double sum = 0;
+double relative_variance(const GridPicture& picture, double error_floor) {
+  double sum = 0, weights = 0;
   for (const FilmPixel& pixel : picture.pixels) {
-    const Color mean = pixel_mean(pixel);
-    const Vec3d variance = pixel_variance(pixel);
-    for (int c = 0; c < 3; ++c) sum += double(variance[c]) / (3 * (double(mean[c]) * double(mean[c]) + 0.01));
+    const double alpha = pixel_coverage(pixel);
+    sum += alpha * relative_square(Vec3d(pixel_variance(pixel)), Vec3d(pixel_mean(pixel)), error_floor);
+    weights += alpha;
   }
-  return sum / double(picture.pixels.size());
+  return weights > 0 ? sum / weights : 0;
 }
 
 Image grid_image(const GridPicture& picture) {
@@ -53,7 +66,7 @@ Image grid_image(const GridPicture& picture) {
   for (size_t i = 0; i < picture.pixels.size(); ++i) {
     const Color mean = pixel_mean(picture.pixels[i]);
     for (int c = 0; c < 3; ++c) image.pixels[4 * i + size_t(c)] = mean[c];
-    image.pixels[4 * i + 3] = float(pixel_coverage(picture.pixels[i]));
+    image.pixels[4 * i + 3] = picture.opaque ? 1 : float(pixel_coverage(picture.pixels[i]));
   }
   return image;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace sateen {
 
@@ -21,24 +22,34 @@ double mean_channel(const Vec3d& v) {
 }
 }  // namespace
 
-Interval picture_loss(std::span<const PixelLoss> pixels) {
-  if (pixels.empty()) return {};
-  double sum = 0, squares = 0;
+double relative_square(const Vec3d& square, const Vec3d& value, double error_floor) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += square[c] / (3 * (value[c] * value[c] + error_floor * error_floor));
+  return sum;
+}
+
+Interval picture_loss(std::span<const PixelLoss> pixels, double error_floor) {
+  double sum = 0, weights = 0;
+  std::vector<double> squares;
   for (const PixelLoss& pixel : pixels) {
-    double q = 0;
-    for (int c = 0; c < 3; ++c) {
-      double total = 0, own = 0;
-      for (const Vec3d& lost : pixel.lost) {
-        total += lost[c];
-        own += lost[c] * lost[c];
-      }
-      q += (total * total - own) / (replicates * (replicates - 1)) / (3 * (pixel.value[c] * pixel.value[c] + 0.01));
+    Vec3d total(0), own(0);
+    for (const Vec3d& lost : pixel.lost) {
+      total += lost;
+      own += lost * lost;
     }
-    sum += q;
-    squares += q * q;
+    squares.push_back(
+        relative_square((total * total - own) / double(replicates * (replicates - 1)), pixel.value, error_floor));
+    sum += pixel.weight * squares.back();
+    weights += pixel.weight;
   }
-  const auto n = double(pixels.size());
-  const double mean = sum / n, half = normal_95 * std::sqrt(std::max(squares / n - mean * mean, 0.0) / n);
+  if (!(weights > 0)) return {};
+  const double mean = sum / weights;
+  double scatter = 0;
+  for (size_t i = 0; i < squares.size(); ++i) {
+    const double off = pixels[i].weight * (squares[i] - mean);
+    scatter += off * off;
+  }
+  const double half = normal_95 * std::sqrt(scatter) / weights;
   const auto root = [](double v) { return std::sqrt(std::max(v, 0.0)); };
   return {root(mean), root(mean - half), root(mean + half)};
 }

@@ -3,169 +3,53 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
-#include "mesh/convexity.h"
 #include "render/loss.h"
 #include "render/plan_parts.h"
-#include "render/plan_pilot.h"
-#include "scene/near_weave.h"
 
 namespace sateen {
 
 namespace {
 
-std::string percent(double share) {
-  return fmt::format("{:.3g} %", 100 * share);
-}
-
-std::string both(const char* name, float warp, float weft) {
-  return warp == weft ? fmt::format("{} {} in warp and weft", name, warp)
-                      : fmt::format("{} {} in the warp, {} in the weft", name, warp, weft);
-}
-
-/// What a look's own numbers decide.
-PlannedEffect of_model(Effect effect, bool on, const std::string& reason, std::optional<Interval> share = {}) {
-  return {effect, on, on ? Basis::look : Basis::data, reason, share, {}, 0};
-}
-
-std::vector<PlannedEffect> plan_model(const Look& look, const PlanPilot& pilot) {
-  const ThreadFamily &warp = look.warp, &weft = look.weft;
-  const bool has_warp = warp.coverage > 0, has_weft = weft.coverage > 0;
-  const auto either = [&](const auto& test) { return (has_warp && test(warp)) || (has_weft && test(weft)); };
-  const bool surface = either([](const ThreadFamily& f) { return f.eta > 1; });
-  const bool directed = either([](const ThreadFamily& f) { return f.k_d < 1; });
-  const bool isotropic = either([](const ThreadFamily& f) { return f.k_d > 0; });
-  const bool bends = either([](const ThreadFamily& f) {
-    return std::any_of(f.offsets_deg.begin(), f.offsets_deg.end(), [&](float o) { return o != f.offsets_deg[0]; });
-  });
-  std::vector<PlannedEffect> all;
-  all.push_back(of_model(Effect::families, has_warp && has_weft,
-                         has_warp && has_weft
-                             ? both("coverage", warp.coverage, weft.coverage) + "; the light is the weft's"
-                             : "one family covers nothing",
-                         pilot.weft));
-  all.push_back(of_model(Effect::surface_lobe, surface,
-                         surface ? both("eta", warp.eta, weft.eta) : "eta is 1: nothing is reflected",
-                         pilot.surface));
-  all.push_back(of_model(Effect::directed_volume, directed,
-                         directed ? both("k_d", warp.k_d, weft.k_d) : "k_d is 1: all of it is even", pilot.volume));
-  all.push_back(of_model(Effect::isotropic_volume, isotropic,
-                         isotropic ? "of the volume's light, " + both("k_d", warp.k_d, weft.k_d) : "k_d is 0"));
-  all.push_back(of_model(
-      Effect::tangent_curve, bends,
-      bends ? fmt::format("the warp bends in {} pieces, the weft in {}", warp.lengths.size(), weft.lengths.size())
-            : "the threads lie straight: one tangent each"));
-  return all;
-}
-
-PlannedEffect plan_weave(const Scene& scene, const Look& look, const EffectSwitches& switches) {
-  PlannedEffect planned =
-      described(Effect::weave, scene.near_weave_pixel > 0, switches,
-                fmt::format("{} by {} threads a centimetre", look.weave.warp_per_cm, look.weave.weft_per_cm),
-                "the look has no draft", "name one: --set weave.draft=plain");
-  if (planned.on && !switches.named_on(Effect::weave) && !may_show_yarns(scene)) {
-    planned.on = false;
-    planned.basis = Basis::data;
-    planned.reason += ": none fills a pixel";
+/// The scene without what the user switched off; empty where that is nothing. Bounces are followed even so, to tell
+/// what they would add.
+std::optional<Scene> without_switched_off(const Scene& scene, const EffectSwitches& switches) {
+  std::optional<Scene> rest;
+  LightSettings light;
+  for (const EffectInfo& info : effect_list()) {
+    if (!info.switchable || info.effect == Effect::interreflection) continue;
+    const bool off = switches.named_off(info.effect) ||
+                     (switches.rest == EffectSwitches::Rest::none && !switches.named_on(info.effect));
+    if (!off) continue;
+    if (!rest) rest = scene;
+    remove_effect(info.effect, *rest, light);
   }
-  return planned;
-}
-
-std::string form_text(MeshForm form) {
-  return form == MeshForm::flat ? "the mesh is flat" : "the mesh is convex";
-}
-
-PlannedEffect plan_self_shadowing(MeshForm form, const EffectSwitches& switches) {
-  PlannedEffect planned{Effect::self_shadowing, true, Basis::data, "the mesh has folds", {}, {}, 0};
-  const bool named = switches.named_on(Effect::self_shadowing) || switches.rest == EffectSwitches::Rest::all;
-  if (switches.named_off(Effect::self_shadowing) ||
-      (switches.rest == EffectSwitches::Rest::none && !switches.named_on(Effect::self_shadowing))) {
-    planned.on = false;
-    planned.basis = Basis::asked;
-    planned.reason = "switched off";
-  } else if (form != MeshForm::folded) {
-    planned.on = named;
-    planned.basis = named ? Basis::asked : Basis::data;
-    planned.reason = form_text(form) + ": nothing is in the way of its light";
-  }
-  return planned;
-}
-
-std::string bounces_text(int count) {
-  return fmt::format("{} bounce{}", count, count == 1 ? "" : "s");
+  return rest;
 }
 
 /// How many bounces the pilot follows: where their number is given, one more tells what comes after.
-int pilot_bounces(MeshForm form, const EffectSwitches& switches) {
-  if (form != MeshForm::folded) return 0;
+int pilot_bounces(bool possible, const EffectSwitches& switches) {
+  if (!possible) return 0;
   return switches.bounces ? std::min(*switches.bounces + 1, every_bounce) : every_bounce;
 }
 
-struct Bounces {
-  PlannedEffect planned;
-  int count = 0;
+/// Effects in the order of effect_list(), in whatever order they are decided.
+struct Decided {
+  std::vector<PlannedEffect> effects = std::vector<PlannedEffect>(effect_list().size());
+  void add(PlannedEffect planned) { effects[size_t(planned.effect)] = std::move(planned); }
 };
-
-Bounces plan_bounces(const PlanPilot& pilot, MeshForm form, const EffectSwitches& switches, double error) {
-  Bounces out;
-  PlannedEffect& p = out.planned;
-  p.effect = Effect::interreflection;
-  p.cost = pilot.bounce_cost;
-  const bool off = switches.named_off(p.effect) ||
-                   (switches.rest == EffectSwitches::Rest::none && !switches.named_on(p.effect) && !switches.bounces);
-  const bool on = switches.named_on(p.effect) || switches.rest == EffectSwitches::Rest::all;
-  // What the bounces that are followed leave out.
-  const auto settled = [&] {
-    if (form == MeshForm::folded && pilot.indirect) {
-      p.share = pilot.indirect;
-      if (out.count < tracked_bounces) p.loss = pilot.lost_after[size_t(out.count)];
-    }
-    return out;
-  };
-  if (off || switches.bounces || on) {
-    out.count = off ? 0 : switches.bounces.value_or(every_bounce);
-    p.on = out.count > 0;
-    p.basis = Basis::asked;
-    p.reason = !p.on ? "switched off" : switches.bounces ? bounces_text(out.count) : "every bounce";
-    if (form == MeshForm::folded && pilot.indirect)
-      p.reason += fmt::format("; {} {} of the light",
-                              p.on  ? "it adds"
-                              : off ? "it would add"
-                                    : "the first bounce would add",
-                              percent_text(*pilot.indirect));
-    return settled();
-  }
-  if (form != MeshForm::folded) {
-    p.basis = Basis::data;
-    p.reason = form_text(form) + ": light that leaves it does not come back";
-    return settled();
-  }
-  p.basis = Basis::pilot;
-  const double allowed = plan_allowance * error;
-  while (out.count < tracked_bounces && pilot.lost_after[size_t(out.count)].high > allowed) ++out.count;
-  const bool all = out.count == tracked_bounces;
-  p.on = out.count > 0;
-  const std::string adds = fmt::format("adds {} of the light", percent_text(pilot.indirect.value_or(Interval())));
-  if (!p.on) {
-    p.reason = fmt::format("{}; leaving it out costs E {}, and {} are allowed", adds,
-                           percent_text(pilot.lost_after[0]), percent(allowed));
-  } else {
-    p.reason = fmt::format("{}; without it E would be off by {}", adds, percent_text(pilot.lost_after[0]));
-    if (!all)
-      p.reason +=
-          fmt::format(", after {} by {}", bounces_text(out.count), percent_text(pilot.lost_after[size_t(out.count)]));
-  }
-  if (all) out.count = every_bounce;
-  return settled();
-}
 
 }  // namespace
 
-const std::string& basis_name(Basis basis) {
-  static const std::vector<std::string> names{"look", "asked", "data", "pilot"};
-  return names[size_t(basis)];
+bool PlanWork::is_asked(Effect effect) const {
+  const EffectSwitches& s = settings.switches;
+  return !s.named_off(effect) && (s.named_on(effect) || s.rest == EffectSwitches::Rest::all);
+}
+
+bool PlanWork::is_off(Effect effect) const {
+  const EffectSwitches& s = settings.switches;
+  return s.named_off(effect) || (s.rest == EffectSwitches::Rest::none && !s.named_on(effect));
 }
 
 PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& switches, const std::string& reason,
@@ -184,59 +68,98 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
   return planned;
 }
 
-Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switches, double error,
-               const LightSettings& light, std::uint32_t seed, int threads, bool with_pilot) {
+void decide_by_pilot(PlanWork& work, PlannedEffect& planned) {
+  const Removal removal =
+      remove_and_compare(work.scene, planned.effect, work.allowed, work.settings.threads, work.pilot);
+  planned.basis = Basis::pilot;
+  planned.loss = removal.loss;
+  planned.share = removal.share;
+  planned.cost = removal.saves;
+  planned.on = removal.loss.high > work.allowed;
+  planned.reason += fmt::format("; without it E would be off by {}", percent_text(removal.loss));
+  if (planned.on) return;
+  planned.reason += fmt::format(", and {:.3g} % are allowed", 100 * work.allowed);
+  work.allowed -= removal.loss.high;
+}
+
+Plan make_plan(const Scene& scene, const Look& look, const PlanSettings& settings) {
+  const EffectSwitches& switches = settings.switches;
   Plan plan;
-  plan.error_asked = error > 0;
-  plan.error = plan.error_asked ? error : default_plan_error;
-  const MeshForm form = mesh_form(*scene.mesh);
-  // A floor sends light back to cloth of any form.
-  const MeshForm lit_form = solid_ground(scene) ? MeshForm::folded : form;
-  PlanPilot pilot;
-  if (with_pilot) pilot = run_plan_pilot(scene, light, pilot_bounces(lit_form, switches), seed, threads);
-  plan.effects = plan_model(look, pilot);
+  plan.error_asked = settings.error > 0;
+  plan.error = plan.error_asked ? settings.error : default_plan_error;
+  const std::optional<Scene> rest = without_switched_off(scene, switches);
+  const Scene& rendered = rest ? *rest : scene;
+  SelfLight self = self_light(rendered);
+  // A ground sends light back to cloth of any form.
+  const bool by_ground = solid_ground(rendered) != nullptr;
+  const auto comes_back = [&] { return by_ground || self.way != SelfLight::Way::none; };
+  PlanPilot pilot = run_plan_pilot(rendered, settings.light, settings.error_floor,
+                                   pilot_bounces(comes_back(), switches), settings.seed, settings.threads);
+  PlanWork work{rendered, settings, pilot, plan_allowance * plan.error};
+  Decided decided;
+  for (PlannedEffect& part : plan_model(rendered, pilot)) decided.add(std::move(part));
 
   PlannedEffect back =
       described(Effect::back, scene.back.has_value(), switches, fmt::format("the look names {}", look.back),
                 "both sides are the same look", "name a look: --set back=NAME");
   back.share = pilot.back;
-  plan.effects.push_back(back);
+  decided.add(std::move(back));
+  decided.add(described(Effect::maps, has_maps(scene), switches, "the look names textures",
+                        "the look has no textures", "give a field one: see docs/maps.md"));
+  decided.add(described(Effect::pattern, has_pattern(scene), switches, "the look names a pattern",
+                        "one look everywhere", "name one: pattern.mask and pattern.look"));
+  decided.add(plan_weave(scene, settings));
 
-  plan.effects.push_back(described(Effect::maps, has_maps(scene), switches, "the look names textures",
-                                   "the look has no textures", "give a field one: see docs/maps.md"));
-  plan.effects.push_back(described(Effect::pattern, has_pattern(scene), switches, "the look names a pattern",
-                                   "one look everywhere", "name one: pattern.mask and pattern.look"));
-  const float gap = std::max(scene.front.gap, scene.back ? scene.back->gap : 0);
-  PlannedEffect gaps = described(Effect::gaps, scene.has_gaps, switches,
-                                 fmt::format("no thread covers {} of the cloth", percent(double(gap))),
-                                 "the threads cover all of the cloth", "give the look less coverage");
-  gaps.share = pilot.through_gaps;
-  plan.effects.push_back(gaps);
-
-  plan.effects.push_back(plan_weave(scene, look, switches));
-  plan.effects.push_back(plan_self_shadowing(form, switches));
-  Bounces bounces = plan_bounces(pilot, lit_form, switches, plan.error);
+  // Where light comes back through gaps alone all else hangs on them; else bounces are what saves most.
+  const bool gaps_first = self.way == SelfLight::Way::gaps;
+  if (gaps_first) {
+    PlannedEffect gaps = plan_gaps(work, scene.has_gaps);
+    if (!gaps.on) self = {SelfLight::Way::none, self.form};
+    decided.add(std::move(gaps));
+  }
+  PlannedBounces bounces = plan_bounces(work, comes_back(), self.form);
   plan.bounces = bounces.count;
   plan.bounce_share = plan.bounces > 0 ? switches.bounce_share.value_or(pilot.bounce_share) : 1;
   bounces.planned.cost *= double(plan.bounce_share);
   if (plan.bounce_share < 1)
-    bounces.planned.reason += fmt::format("; followed by {} of the samples", percent(double(plan.bounce_share)));
-  plan.effects.push_back(std::move(bounces.planned));
+    bounces.planned.reason += fmt::format("; followed by {:.3g} % of the samples", 100 * double(plan.bounce_share));
+  decided.add(std::move(bounces.planned));
+  if (!gaps_first) decided.add(plan_gaps(work, scene.has_gaps));
+  decided.add(plan_self_shadowing(work, self));
 
-  plan.effects.push_back(plan_ground(scene, switches));
-  plan.effects.push_back(plan_lens(scene, switches));
-  plan.effects.push_back(plan_shutter(scene, switches));
+  decided.add(plan_ground(scene, switches));
+  decided.add(plan_lens(work, scene));
+  decided.add(plan_shutter(work, scene));
   PlannedEffect backdrop = described(
       Effect::backdrop, scene.backdrop != Backdrop::none, switches,
       scene.backdrop == Backdrop::plain ? "one colour beside the cloth" : "the map is seen beside the cloth",
       "nothing is asked for beside the cloth", "say which: --backdrop environment");
   if (backdrop.on) backdrop.basis = Basis::asked;
   backdrop.share = pilot.backdrop;
-  plan.effects.push_back(backdrop);
-  plan.effects.push_back(plan_references(switches));
-  plan.detail = measure_detail(*scene.mesh, detail_view(scene.camera, false), threads);
-  plan.effects.push_back(plan_subdivision(*scene.mesh, plan.detail));
+  decided.add(std::move(backdrop));
+  decided.add(plan_references(switches));
+  plan.detail = measure_detail(*scene.mesh, detail_view(scene.camera, false), settings.threads);
+  decided.add(plan_subdivision(*scene.mesh, plan.detail));
+  plan.effects = std::move(decided.effects);
   return plan;
+}
+
+void hold_to(const EffectSwitches& switches, Plan& plan) {
+  if (switches.bounces) plan.bounces = *switches.bounces;
+  for (PlannedEffect& p : plan.effects) {
+    if (!effect_info(p.effect).switchable || p.missing || p.effect == Effect::references) continue;
+    const bool off =
+        switches.named_off(p.effect) || (switches.rest == EffectSwitches::Rest::none && !switches.named_on(p.effect));
+    const bool on = switches.named_on(p.effect) || switches.rest == EffectSwitches::Rest::all;
+    if (p.effect != Effect::interreflection) {
+      if (off || on) p.on = !off;
+      continue;
+    }
+    if (switches.bounces && !switches.named_off(p.effect)) continue;
+    if (off) plan.bounces = 0;
+    if (on && !off) plan.bounces = every_bounce;
+  }
+  plan.effects[size_t(Effect::interreflection)].on = plan.bounces > 0;
 }
 
 void apply_plan(const Plan& plan, Scene& scene, LightSettings& light) {
@@ -244,34 +167,6 @@ void apply_plan(const Plan& plan, Scene& scene, LightSettings& light) {
   light.bounce_share = plan.bounce_share;
   for (const PlannedEffect& planned : plan.effects)
     if (!planned.on) remove_effect(planned.effect, scene, light);
-}
-
-void write_plan(JsonWriter& w, const Plan& plan) {
-  const auto interval = [&](const char* name, const std::optional<Interval>& i) {
-    if (i) w.key(name).open_object().member("value", i->value).member("low", i->low).member("high", i->high).close();
-  };
-  w.member("error", plan.error).member("error_asked", plan.error_asked).member("bounces", plan.bounces);
-  w.member("bounce_share", plan.bounce_share);
-  w.key("detail").open_object().member("edge_pixels", plan.detail.edge_pixels);
-  w.member("off_pixels", plan.detail.off_pixels).member("normal_deg", plan.detail.normal_deg);
-  w.member("rise_pixels", plan.detail.rise_pixels).close();
-  w.key("effects").open_list();
-  for (const PlannedEffect& p : plan.effects) {
-    const EffectInfo& info = effect_info(p.effect);
-    w.open_object().member("effect", info.name).member("what", info.what).member("on", p.on);
-    w.member("basis", basis_name(p.basis)).member("reason", p.reason).member("switchable", info.switchable);
-    interval("share_of_light", p.share);
-    interval("loss", p.loss);
-    w.member("cost", p.cost).close();
-  }
-  w.close();
-}
-
-std::string plan_json(const Plan& plan) {
-  JsonWriter w(true);
-  w.open_object();
-  write_plan(w, plan);
-  return w.close().text();
 }
 
 }  // namespace sateen

@@ -31,6 +31,17 @@ struct PlannedEffect {
   bool missing = false;  ///< off because the scene describes nothing of it
 };
 
+/// What a plan is asked for.
+struct PlanSettings {
+  EffectSwitches switches;
+  double error = 0;                          ///< E that is asked for; 0: none, and `default_plan_error` is taken
+  double error_floor = default_error_floor;  ///< of E, in the light of the scene (film/error.h)
+  LightSettings light;                       ///< `bounces` and `bounce_share` are the plan's
+  std::uint32_t seed = 1;
+  int threads = 0;
+  bool from_all_around = false;  ///< one plan for an object, camera or light that turns
+};
+
 /// Which effects a picture is rendered with, decided before it is.
 struct Plan {
   double error = 0;         ///< E that it was made for
@@ -44,18 +55,20 @@ struct Plan {
 };
 
 /// Where no error is asked for. About what the default number of samples reaches.
-inline constexpr double default_plan_error = 0.03;
-/// What all that is ruled out may be off by, as a share of the error asked for: beside noise of that size it adds an
-/// eighth.
+inline constexpr double default_plan_error = 0.057;
+/// What all that a pilot rules out may be off by together, as a share of the error asked for: beside noise of that
+/// size it adds an eighth.
 inline constexpr double plan_allowance = 0.5;
 
-/// Decides for a scene that has everything its settings describe. A question of scene, switches and `error` (0: none
-/// asked) alone, never of a clock: the same on every machine and any number of threads. InputError where something is
-/// switched on that the scene does not have. Its pilot takes about a twentieth of a CPU-second. Where the number of
-/// bounces is given it follows one more, to tell what is left out. Without `pilot` no share and no loss is known:
-/// for a picture that is rendered already.
-Plan make_plan(const Scene& scene, const Look& look, const EffectSwitches& switches, double error,
-               const LightSettings& light, std::uint32_t seed, int threads, bool pilot = true);
+/// Decides for a scene that has everything its settings describe. A question of scene and settings alone, never of a
+/// clock: the same on every machine and any number of threads; and of light and floor in proportion: a scene of half
+/// the light that is shown at one stop more gets the same plan. InputError where something is switched on that the
+/// scene does not have. Its pilot takes about a twentieth of a CPU-second, and as much again for an effect that is
+/// taken out to see. Where the number of bounces is given it follows one more, to tell what is left out.
+Plan make_plan(const Scene& scene, const Look& look, const PlanSettings& settings);
+
+/// Holds a plan that was made before to what switches say of it: where they say another thing, the plan becomes that.
+void hold_to(const EffectSwitches& switches, Plan& plan);
 
 /// Takes out of scene and settings what the plan has off.
 void apply_plan(const Plan& plan, Scene& scene, LightSettings& light);
@@ -63,5 +76,7 @@ void apply_plan(const Plan& plan, Scene& scene, LightSettings& light);
 /// The plan as an open JSON object's members: error, bounces, effects.
 void write_plan(JsonWriter& w, const Plan& plan);
 std::string plan_json(const Plan& plan);  ///< on one line, for metadata
+/// The plan that plan_json() wrote, whose text is then the same. InputError where the text is another one.
+Plan read_plan(const std::string& json);
 
 }  // namespace sateen

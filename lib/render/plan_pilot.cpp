@@ -1,12 +1,10 @@
 #include "render/plan_pilot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
-#include "render/effects.h"
-#include "render/loss.h"
-#include "render/pixel_grid.h"
 #include "render/ray_time.h"
 
 namespace sateen {
@@ -14,7 +12,8 @@ namespace sateen {
 namespace {
 
 constexpr int pilot_samples = 16;
-constexpr float least_share = 1.0f / 16;  // fewer leave speckles in a picture of few samples
+constexpr int most_samples = 4 * pilot_samples;  // where the first do not tell
+constexpr float least_share = 1.0f / 16;         // fewer leave speckles in a picture of few samples
 
 /// One picture of the grid for each part that is told apart.
 struct Parts {
@@ -25,11 +24,9 @@ struct Parts {
   std::vector<double> direct_noise, indirect_noise, indirect_square, indirect_mean;
 };
 
-/// Of the mean of a pixel's samples, relative as in E.
-double relative_square(const Vec3d& square, const Vec3d& value) {
-  double sum = 0;
-  for (int c = 0; c < 3; ++c) sum += square[c] / (3 * (value[c] * value[c] + 0.01));
-  return sum;
+/// Light of one bounce, of the first layer and of those seen through its gaps.
+Color bounced_light(const CameraSample& sample, int bounce) {
+  return sample.indirect.bounce[bounce] + sample.bounced_behind.bounce[bounce];
 }
 
 void add(std::vector<PixelLoss>& picture, int pixel, size_t replicate, const Color& light) {
@@ -38,11 +35,15 @@ void add(std::vector<PixelLoss>& picture, int pixel, size_t replicate, const Col
 
 }  // namespace
 
-PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bounces, std::uint32_t seed,
-                         int threads) {
-  LightSettings light = asked;
-  light.bounces = bounces;
-  light.bounce_share = 1;
+PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, double error_floor, int bounces,
+                         std::uint32_t seed, int threads) {
+  PlanPilot pilot;
+  pilot.light = asked;
+  pilot.light.bounces = bounces;
+  pilot.light.bounce_share = 1;
+  pilot.seed = seed;
+  pilot.error_floor = error_floor;
+  const LightSettings& light = pilot.light;
   PixelGrid grid;
   grid.samples = pilot_samples;
   Parts parts;
@@ -53,50 +54,59 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bou
   for (auto* numbers : {&parts.direct_noise, &parts.indirect_noise, &parts.indirect_square, &parts.indirect_mean})
     numbers->resize(size_t(grid.pixels()));
 
-  const GridWork work =
-      trace_grid(scene, light, seed, grid, threads, [&](int pixel, std::span<const CameraSample> samples) {
-        constexpr float part = float(replicates) / pilot_samples;  // a replicate's mean
-        Vec3d value(0);
-        for (size_t k = 0; k < samples.size(); ++k) {
-          const CameraSample& s = samples[k];
-          const size_t r = k % replicates;
-          value += Vec3d(s.total() * part) / double(replicates);
-          add(parts.weft, pixel, r, (s.direct.surface[1] + s.direct.volume[1]) * part);
-          add(parts.surface, pixel, r, (s.direct.surface[0] + s.direct.surface[1]) * part);
-          add(parts.volume, pixel, r, (s.direct.volume[0] + s.direct.volume[1]) * part);
-          if (s.back) add(parts.back, pixel, r, (s.direct.total() + s.indirect.total()) * part);
-          add(parts.through_gaps, pixel, r, s.through_gaps * part);
-          add(parts.backdrop, pixel, r, s.backdrop * part);
-          Color left(0);
-          for (int b = tracked_bounces - 1; b >= 0; --b) {
-            left += s.indirect.bounce[b] * part;
-            add(parts.after[size_t(b)], pixel, r, left);
-          }
-        }
-        FilmPixel direct, bounced;
-        Vec3d squares(0), mean(0);
-        const auto count = double(samples.size());
-        for (size_t k = 0; k < samples.size(); ++k) {
-          const Vec3d indirect(samples[k].indirect.total());
-          direct.beauty[k % replicates] += Vec3d(samples[k].total()) - indirect;
-          bounced.beauty[k % replicates] += indirect;
-          ++direct.samples;
-          ++bounced.samples;
-          squares += indirect * indirect / (count * count);
-          mean += indirect / count;
-        }
-        const auto pixel_number = size_t(pixel);
-        parts.direct_noise[pixel_number] = relative_square(Vec3d(pixel_variance(direct)), value);
-        parts.indirect_noise[pixel_number] = relative_square(Vec3d(pixel_variance(bounced)), value);
-        parts.indirect_square[pixel_number] = relative_square(squares, value);
-        parts.indirect_mean[pixel_number] = relative_square(mean * mean / count, value);
-        for (auto* picture :
-             {&parts.weft, &parts.surface, &parts.volume, &parts.back, &parts.through_gaps, &parts.backdrop})
-          (*picture)[size_t(pixel)].value = value;
-        for (auto& picture : parts.after) picture[size_t(pixel)].value = value;
-      });
+  GridPicture& whole = pilot.whole;
+  whole.grid = grid;
+  whole.opaque = scene.backdrop != Backdrop::none;
+  whole.pixels.resize(size_t(grid.pixels()));
+  whole.work = trace_grid(scene, light, seed, grid, threads, [&](int pixel, std::span<const CameraSample> samples) {
+    constexpr float part = float(replicates) / pilot_samples;  // a replicate's mean
+    Vec3d value(0);
+    double alpha = 0;
+    for (size_t k = 0; k < samples.size(); ++k) {
+      const CameraSample& s = samples[k];
+      add_sample(whole.pixels[size_t(pixel)], s.total(), s.coverage, no_grain);
+      alpha += double(s.coverage) / double(samples.size());
+      const size_t r = k % replicates;
+      value += Vec3d(s.total() * part) / double(replicates);
+      add(parts.weft, pixel, r, (s.direct.surface[1] + s.direct.volume[1]) * part);
+      add(parts.surface, pixel, r, (s.direct.surface[0] + s.direct.surface[1]) * part);
+      add(parts.volume, pixel, r, (s.direct.volume[0] + s.direct.volume[1]) * part);
+      if (s.back) add(parts.back, pixel, r, (s.direct.total() + s.indirect.total()) * part);
+      add(parts.through_gaps, pixel, r, s.through_gaps * part);
+      add(parts.backdrop, pixel, r, s.backdrop * part);
+      Color left(0);
+      for (int b = tracked_bounces - 1; b >= 0; --b) {
+        left += bounced_light(s, b) * part;
+        add(parts.after[size_t(b)], pixel, r, left);
+      }
+    }
+    FilmPixel direct, bounced;
+    Vec3d squares(0), mean(0);
+    const auto count = double(samples.size());
+    for (size_t k = 0; k < samples.size(); ++k) {
+      const Vec3d indirect(samples[k].indirect.total() + samples[k].bounced_behind.total());
+      direct.beauty[k % replicates] += Vec3d(samples[k].total()) - indirect;
+      bounced.beauty[k % replicates] += indirect;
+      ++direct.samples;
+      ++bounced.samples;
+      squares += indirect * indirect / (count * count);
+      mean += indirect / count;
+    }
+    const auto pixel_number = size_t(pixel);
+    const auto weighed = [&](const Vec3d& square) { return alpha * relative_square(square, value, error_floor); };
+    parts.direct_noise[pixel_number] = weighed(Vec3d(pixel_variance(direct)));
+    parts.indirect_noise[pixel_number] = weighed(Vec3d(pixel_variance(bounced)));
+    parts.indirect_square[pixel_number] = weighed(squares);
+    parts.indirect_mean[pixel_number] = weighed(mean * mean / count);
+    for (auto* picture :
+         {&parts.weft, &parts.surface, &parts.volume, &parts.back, &parts.through_gaps, &parts.backdrop})
+      (*picture)[pixel_number].value = value;
+    for (auto& picture : parts.after) {
+      picture[pixel_number].value = value;
+      picture[pixel_number].weight = alpha;
+    }
+  });
 
-  PlanPilot pilot;
   pilot.weft = light_share(parts.weft);
   pilot.surface = light_share(parts.surface);
   pilot.volume = light_share(parts.volume);
@@ -105,25 +115,50 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, int bou
   if (scene.backdrop != Backdrop::none) pilot.backdrop = light_share(parts.backdrop);
   if (bounces == 0) return pilot;
   pilot.indirect = light_share(parts.after[0]);
-  for (size_t b = 0; b < parts.after.size(); ++b) pilot.lost_after[b] = picture_loss(parts.after[b]);
+  for (size_t b = 0; b < parts.after.size(); ++b) pilot.lost_after[b] = picture_loss(parts.after[b], error_floor);
 
-  const double direct = direct_time(work.rays, light), bounced = bounce_time(work.rays, light);
+  const double direct = direct_time(whole.work.rays, light), bounced = bounce_time(whole.work.rays, light);
   pilot.bounce_cost = direct > 0 ? bounced / direct : 0;
   const auto sum = [](const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
   };
-  const double noise = sum(parts.direct_noise), whole = sum(parts.indirect_noise);
+  const double noise = sum(parts.direct_noise), followed = sum(parts.indirect_noise);
   const double square = sum(parts.indirect_square), mean = sum(parts.indirect_mean);
   double least = 0;
   for (float share = 1; share >= least_share; share /= 2) {
     // A share of the samples keeps nothing of the sequences' evenness.
-    const double indirect = share < 1 ? std::max(square / double(share) - mean, whole) : whole;
+    const double indirect = share < 1 ? std::max(square / double(share) - mean, followed) : followed;
     const double price = (noise + indirect) * (direct + bounced * double(share));
     if (share < 1 && price >= least) continue;
     least = price;
     pilot.bounce_share = share;
   }
   return pilot;
+}
+
+Removal remove_and_compare(const Scene& scene, Effect effect, double allowed, int threads, PlanPilot& pilot) {
+  Scene without = scene;
+  LightSettings light = pilot.light;
+  remove_effect(effect, without, light);
+  const double floor = pilot.error_floor;
+  GridPicture less = trace_picture(without, light, pilot.seed, pilot.whole.grid, threads);
+  Removal removal;
+  for (;;) {
+    removal.loss = picture_loss(differences(less, pilot.whole, floor), floor);
+    const bool sure = removal.loss.high <= allowed || removal.loss.low > allowed;
+    if (sure || pilot.whole.grid.samples >= most_samples) break;
+    const int samples = 2 * pilot.whole.grid.samples;
+    trace_more(pilot.whole, scene, pilot.light, pilot.seed, samples, threads);
+    trace_more(less, without, light, pilot.seed, samples, threads);
+  }
+  removal.share = light_share(differences(less, pilot.whole, 0));
+  const auto time = [](const Scene& of, const RayCounts& rays, const LightSettings& by) {
+    return direct_time(rays, by) + bounce_time(rays, by) + (of.has_gaps ? gap_time(rays) : 0);
+  };
+  const double rest = direct_time(less.work.rays, light) + (without.has_gaps ? gap_time(less.work.rays) : 0);
+  if (rest > 0)
+    removal.saves = (time(scene, pilot.whole.work.rays, pilot.light) - time(without, less.work.rays, light)) / rest;
+  return removal;
 }
 
 }  // namespace sateen

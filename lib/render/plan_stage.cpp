@@ -28,11 +28,12 @@ Extent extent_of(const Scene& scene) {
   return e;
 }
 
-void rule_out(PlannedEffect& planned, const EffectSwitches& switches, const std::string& why) {
-  if (!planned.on || switches.named_on(planned.effect)) return;
-  planned.on = false;
-  planned.basis = Basis::data;
+/// Leaves out what is too small to see, unless the pilot sees it: lobes may be narrower than the turn, threads finer
+/// than the blur.
+void rule_out(PlanWork& work, PlannedEffect& planned, const std::string& why) {
+  if (!planned.on || work.is_asked(planned.effect)) return;
   planned.reason += ": " + why;
+  decide_by_pilot(work, planned);
 }
 
 }  // namespace
@@ -46,38 +47,44 @@ PlannedEffect plan_ground(const Scene& scene, const EffectSwitches& switches) {
                    "the cloth stands in the air", "say which: --ground floor");
 }
 
-PlannedEffect plan_lens(const Scene& scene, const EffectSwitches& switches) {
+PlannedEffect plan_lens(PlanWork& work, const Scene& whole) {
   double blur = 0;
-  if (scene.lens) {
-    const Extent e = extent_of(scene);
-    const double radius = double(scene.lens->radius), focus = double(scene.lens->focus);
+  if (whole.lens) {
+    const Extent e = extent_of(whole);
+    const double radius = double(whole.lens->radius), focus = double(whole.lens->focus);
     for (const double depth : {e.nearest, e.farthest})
       blur = std::max(blur, 2 * radius * std::abs(1 / depth - 1 / focus) * e.pixels_at_unit);
   }
-  PlannedEffect planned = described(Effect::depth_of_field, scene.lens.has_value(), switches,
+  PlannedEffect planned = described(Effect::depth_of_field, whole.lens.has_value(), work.settings.switches,
                                     fmt::format("the lens blurs the object by up to {:.2g} pixels", blur),
                                     "a pinhole: all is sharp", "name an aperture: --f-stop 2.8");
   // Behind and before the object there is something to blur where it is seen.
-  if (blur < visible_pixels && scene.backdrop != Backdrop::environment && !scene.ground)
-    rule_out(planned, switches,
+  const bool seen_behind = whole.backdrop == Backdrop::environment || whole.backdrop == Backdrop::blurred;
+  if (blur < visible_pixels && !seen_behind && !whole.ground)
+    rule_out(work, planned,
              fmt::format("less than half of one; it is {:.3g} units large, whose size --metres-per-unit says",
-                         2 * extent_of(scene).radius * scene.mesh->placement.unit));
+                       2 * extent_of(whole).radius * scene.mesh->placement.unit));
   return planned;
 }
 
-PlannedEffect plan_shutter(const Scene& scene, const EffectSwitches& switches) {
+PlannedEffect plan_shutter(PlanWork& work, const Scene& whole) {
   double moved = 0;
-  if (scene.shutter) {
-    const Extent e = extent_of(scene);
-    const double angle =
-        std::max(std::abs(double(scene.shutter->object_angle)), std::abs(double(scene.shutter->camera_angle)));
-    moved = angle * e.radius / e.nearest * e.pixels_at_unit;
+  if (whole.shutter) {
+    const Extent e = extent_of(whole);
+    const double object = std::abs(double(whole.shutter->object_angle)),
+                 camera = std::abs(double(whole.shutter->camera_angle));
+    moved = std::max(object, camera) * e.radius / e.nearest * e.pixels_at_unit;
+    // To a camera that walks what is far behind the object moves by the whole angle.
+    const bool seen_behind = whole.backdrop == Backdrop::environment || whole.backdrop == Backdrop::blurred;
+    if (seen_behind || whole.ground) moved = std::max(moved, camera * e.pixels_at_unit);
+    // And so do shadows that fall far.
+    if (whole.ground) moved = std::max(moved, object * e.pixels_at_unit);
   }
   PlannedEffect planned =
-      described(Effect::motion_blur, scene.shutter.has_value(), switches,
+      described(Effect::motion_blur, whole.shutter.has_value(), work.settings.switches,
                 fmt::format("things move by up to {:.2g} pixels while the shutter is open", moved), "nothing moves",
                 "say by how much: --shutter 5");
-  if (moved < visible_pixels) rule_out(planned, switches, "less than half of one");
+  if (moved < visible_pixels) rule_out(work, planned, "less than half of one");
   return planned;
 }
 

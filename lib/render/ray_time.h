@@ -9,5 +9,7 @@ namespace sateen {
 double direct_time(const RayCounts& rays, const LightSettings& light);
 /// The same of the part that follows bounces.
 double bounce_time(const RayCounts& rays, const LightSettings& light);
+/// What their shadow rays take besides where cloth has gaps: all surfaces on the way are met.
+double gap_time(const RayCounts& rays);
 
 }  // namespace sateen

@@ -19,6 +19,14 @@ struct Variant {
 Variant with_effect(const Scene& whole, Plan plan, Effect effect, const LightSettings& light) {
   plan.effects[size_t(effect)].on = true;
   if (effect == Effect::interreflection) plan.bounces = every_bounce;
+  // Nothing else sends light of a closed body back to it: what was ruled out for want of gaps comes with them.
+  if (effect == Effect::gaps)
+    for (const Effect other : {Effect::self_shadowing, Effect::interreflection}) {
+      PlannedEffect& planned = plan.effects[size_t(other)];
+      if (planned.on || planned.basis != Basis::data) continue;
+      planned.on = true;
+      if (other == Effect::interreflection) plan.bounces = every_bounce;
+    }
   plan.bounce_share = 1;
   Variant variant{whole, light};
   apply_plan(plan, variant.scene, variant.light);
@@ -38,8 +46,8 @@ Verdict judge(const Plan& plan, const PlannedEffect& planned, const Interval& lo
 
 }  // namespace
 
-std::vector<Verdict> verify_plan(const Scene& scene, const Plan& plan, const LightSettings& light, std::uint32_t seed,
-                                 int threads, const std::function<void(double)>& tell) {
+std::vector<Verdict> verify_plan(const Scene& scene, const Plan& plan, const LightSettings& light, double error_floor,
+                                 std::uint32_t seed, int threads, const std::function<void(double)>& tell) {
   PixelGrid grid;
   grid.samples = verify_samples;
   grid.place = {0.2f, 0.7f};
@@ -64,7 +72,7 @@ std::vector<Verdict> verify_plan(const Scene& scene, const Plan& plan, const Lig
       continue;
     }
     const GridPicture on = trace_picture(more.scene, more.light, seed + another_seed, grid, threads);
-    verdicts.push_back(judge(plan, *planned, picture_loss(differences(base, on))));
+    verdicts.push_back(judge(plan, *planned, picture_loss(differences(base, on, error_floor), error_floor)));
   }
   if (tell) tell(1);
   return verdicts;

@@ -21,8 +21,8 @@ struct Verdict {
 /// `wrong`: the difference is above the plan's error with 97.5 % confidence; `undecided`: it may be. `scene` has
 /// everything that its settings describe, as for make_plan(). An effect that the user switched off is tested too, for
 /// the record: its outcome is always right.
-std::vector<Verdict> verify_plan(const Scene& scene, const Plan& plan, const LightSettings& light, std::uint32_t seed,
-                                 int threads, const std::function<void(double)>& tell = {});
+std::vector<Verdict> verify_plan(const Scene& scene, const Plan& plan, const LightSettings& light, double error_floor,
+                                 std::uint32_t seed, int threads, const std::function<void(double)>& tell = {});
 
 /// An open JSON object's member "verified".
 void write_verdicts(JsonWriter& w, const std::vector<Verdict>& verdicts);

@@ -23,6 +23,60 @@ struct WeaveAxes {
   double y(const Vec2& uv) const { return metres * (double(uv.y) * c - double(uv.x) * s); }
 };
 
+/// Width of the yarns [metres of cloth] of which the narrower family decides whether they show; 0 without a weave.
+double narrowest_yarn(const Scene& scene) {
+  double spacing = 0;
+  for (const Fabric* fabric : fabrics_of(scene))
+    if (!fabric->weave.empty())
+      spacing = std::max(spacing, std::min(fabric->weave.warp_spacing, fabric->weave.weft_spacing));
+  return spacing;
+}
+
+/// The largest pixel in which yarns of that width begin to show, where |dP/du|^2 + |dP/dv|^2 is at most `stretch`.
+/// Between a yarn's width and its image lies the largest stretch in any direction, at most the root of that; twice
+/// its square leaves room for facets that are tilted by up to 45 degrees from the interpolated normal.
+double showing_pixel(const Scene& scene, double spacing, double stretch) {
+  return spacing * std::sqrt(2 * stretch) / double(scene.metres_per_uv) / double(begins);
+}
+
+/// The smaller side of a pixel at depth 1, across the ray in the picture's corner.
+float pixel_at_unit(const Camera& camera) {
+  const float aslant = std::sqrt(1 + camera.tan_x * camera.tan_x + camera.tan_y * camera.tan_y);
+  return 2 * std::min(camera.tan_x / float(camera.width), camera.tan_y / float(camera.height)) / aslant;
+}
+
+/// Of anything between its corners: derivatives are interpolated, each by itself where they oppose one another.
+double quad_stretch(const Mesh& mesh, const std::array<std::uint32_t, 4>& quad) {
+  float u = 0, v = 0;
+  for (const std::uint32_t corner : quad) {
+    u = std::max(u, dot(mesh.dpdu[corner], mesh.dpdu[corner]));
+    v = std::max(v, dot(mesh.dpdv[corner], mesh.dpdv[corner]));
+  }
+  return double(u) + double(v);
+}
+
+/// Whether some of a quad may be seen, and the least depth there. A lens and the pixels' filter look beside the
+/// frame.
+bool in_view(const Scene& scene, const std::array<std::uint32_t, 4>& quad, float& depth) {
+  constexpr float beside = 10;  // pixels: the widest filter's radius is 8
+  const Camera& camera = scene.camera;
+  const float tx = camera.tan_x * (1 + 2 * beside / float(camera.width)),
+              ty = camera.tan_y * (1 + 2 * beside / float(camera.height));
+  float nearest = far_away, farthest = 0, aside = 0;
+  std::array<float, 4> out{far_away, far_away, far_away, far_away};  // beyond each side of the frame, at least
+  for (const std::uint32_t corner : quad) {
+    const Vec3 d = scene.mesh->positions[corner] - camera.position;
+    const float z = dot(d, camera.forward), x = dot(d, camera.right), y = dot(d, camera.up);
+    nearest = std::min(nearest, z);
+    farthest = std::max(farthest, z);
+    if (scene.lens) aside = std::max(aside, scene.lens->radius * std::abs(1 - z / scene.lens->focus));
+    const std::array<float, 4> over{x - tx * z, -x - tx * z, y - ty * z, -y - ty * z};
+    for (size_t k = 0; k < 4; ++k) out[k] = std::min(out[k], over[k]);
+  }
+  depth = std::max(nearest, 0.0f);
+  return farthest > 0 && *std::max_element(out.begin(), out.end()) <= aside;
+}
+
 }  // namespace
 
 float near_share(float pixels) {
@@ -31,26 +85,32 @@ float near_share(float pixels) {
 }
 
 float near_weave_pixel(const Scene& scene) {
-  double spacing = 0;
-  for (const Fabric* fabric : fabrics_of(scene))
-    if (!fabric->weave.empty()) spacing = std::max({spacing, fabric->weave.warp_spacing, fabric->weave.weft_spacing});
-  double stretch = 0;  // scene units per metre of cloth at most
+  const double spacing = narrowest_yarn(scene);
+  if (!(spacing > 0)) return 0;
+  double stretch = 0;
   for (size_t i = 0; i < scene.mesh->dpdu.size(); ++i)
     stretch = std::max(stretch, double(dot(scene.mesh->dpdu[i], scene.mesh->dpdu[i])) +
                                     double(dot(scene.mesh->dpdv[i], scene.mesh->dpdv[i])));
-  return float(spacing * std::sqrt(2 * stretch) / double(scene.metres_per_uv) / double(begins));
+  return float(showing_pixel(scene, spacing, stretch));
 }
 
 bool may_show_yarns(const Scene& scene, float depth) {
-  const float step =
-      std::min(scene.camera.tan_x / float(scene.camera.width), scene.camera.tan_y / float(scene.camera.height));
-  return std::abs(depth) * 2 * step < scene.near_weave_pixel;
+  return std::abs(depth) * pixel_at_unit(scene.camera) < scene.near_weave_pixel;
 }
 
-bool may_show_yarns(const Scene& scene) {
+bool may_show_yarns(const Scene& scene, bool from_all_around) {
+  if (!(scene.near_weave_pixel > 0)) return false;
   const Vec3 middle = (scene.mesh->bounds_min + scene.mesh->bounds_max) * 0.5f;
   const float nearest = length(scene.camera.position - middle) - length(scene.mesh->bounds_max - middle);
-  return scene.near_weave_pixel > 0 && may_show_yarns(scene, std::max(nearest, 0.0f));
+  if (!may_show_yarns(scene, std::max(nearest, 0.0f))) return false;
+  if (from_all_around || scene.shutter) return true;
+  const double spacing = narrowest_yarn(scene);
+  const Mesh& mesh = *scene.mesh;
+  return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<std::uint32_t, 4>& quad) {
+    float depth = 0;
+    return in_view(scene, quad, depth) &&
+           double(depth * pixel_at_unit(scene.camera)) < showing_pixel(scene, spacing, quad_stretch(mesh, quad));
+  });
 }
 
 void place_yarn(const Scene& scene, const Footprint& pixel, ClothPoint& point) {

@@ -13,8 +13,10 @@ float near_weave_pixel(const Scene& scene);
 /// Whether a point at this depth (along the camera's axis) may be seen from so near that its threads show.
 bool may_show_yarns(const Scene& scene, float depth);
 
-/// Whether the camera stands so near to the mesh's bounding sphere that threads may show somewhere in the picture.
-bool may_show_yarns(const Scene& scene);
+/// Whether threads may show somewhere in the picture: never false where place_yarn() would show one. By a bound for
+/// each quad that lies in the view, whatever hides it; where the object turns under a shutter, or `from_all_around`,
+/// by how near the camera stands to the mesh's bounding sphere.
+bool may_show_yarns(const Scene& scene, bool from_all_around = false);
 
 /// Finds the yarn of a point that a camera ray met, and how much of it shows: nothing where a yarn fills less than a
 /// pixel, everything where it fills three, by the direction in which it looks narrowest.

@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace sateen {
 
 Table bill_table(const Bill& bill) {
   Table table{{"effect", "time", "variance", "E without it (95 % interval)", "largest difference", ""}, {}};
-  const auto share = [](const std::optional<double>& s) { return s ? fmt::format("{:.1f} %", 100 * *s) : "-"; };
+  const auto share = [](const std::optional<double>& s, const char* below) {
+    if (!s) return std::string("-");
+    return *s < -0.0005 ? fmt::format("{} {:.1f} %", below, -100 * *s) : fmt::format("{:.1f} %", 100 * std::abs(*s));
+  };
   for (const BillItem& item : bill.items) {
     const EffectInfo& info = effect_info(item.effect);
-    table.rows.push_back({info.name, share(item.time_share), share(item.variance_share), percent_text(item.loss),
-                          fmt::format("{:.0f} of 255", item.visible), info.what});
+    table.rows.push_back({info.name, share(item.time_share, "saves"), share(item.variance_share, "calms by"),
+                          percent_text(item.loss), fmt::format("{:.0f} of 255", item.visible), info.what});
   }
   return table;
 }
@@ -18,7 +23,8 @@ Table bill_table(const Bill& bill) {
 void add_bill(Page& page, const Bill& bill) {
   page.table(bill_table(bill));
   page.note(fmt::format(
-      "time: share of a sample's CPU time; variance: share of E^2; both measured on {} x {} pixels spread over the "
+      "time: share of a sample's CPU time; variance: share of E^2, where an effect "
+      "may also calm the picture, as shadows do by what they hide; both measured on {} x {} pixels spread over the "
       "picture, with and without the effect. A part of the cloth model counts by the direct light that comes by way "
       "of "
       "it. The bill took {:.1f} CPU-seconds.",

@@ -64,10 +64,12 @@ class CostMeasurement {
     result_.warnings = report.warnings;
     result_.level = report.level;
     LightSettings& light = result_.settings.light;
-    result_.plan = make_plan(scene_, report.look, s.effects, plan_error, light, s.seed, s.threads);
-    apply_plan(result_.plan, scene_, light);
-    settle_candidates(scene_, s.effects.candidates, light, s.seed, s.threads);
     exposure_ = s.exposure_ev.value_or(report.metered_ev);
+    const double floor = error_floor_at(double(exposure_));
+    result_.plan =
+        make_plan(scene_, report.look, {s.effects, plan_error, floor, light, std::uint32_t(s.seed), s.threads});
+    apply_plan(result_.plan, scene_, light);
+    settle_candidates(scene_, s.effects.candidates, light, floor, s.seed, s.threads);
     const double pixels = double(s.scene.width) * s.scene.height, share = std::min(1.0, s.pixels / pixels);
     result_.width = std::max(16, int(std::lround(s.scene.width * std::sqrt(share))));
     result_.height = std::max(16, int(std::lround(s.scene.height * std::sqrt(share))));

@@ -174,7 +174,8 @@ class Study {
     SceneReport report;
     const Scene scene = assemble_study_scene(scene_settings(s), colors_, report);
     s.light_share = half_light_share(scene.environment);
-    if (s.all_strategies) s.candidates = choose_candidates(scene, {}, 1, result_.settings.threads).candidates;
+    if (s.all_strategies)
+      s.candidates = choose_candidates(scene, {}, default_error_floor, 1, result_.settings.threads).candidates;
     candidates_ = s.candidates;
     s.reference_samples = reference_samples(s, at_equal_time);
     StudyRun ignored;

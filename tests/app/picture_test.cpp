@@ -333,6 +333,38 @@ TEST(Render, GoesOnFromACheckpointToTheBitsOfARenderThatNeverStopped) {
   EXPECT_EQ(run_sateen(tiny({"-o", "b.exr", "--resume", "a.exr"}), here).code, 3);
 }
 
+TEST(Render, APictureThatWentOnSaysWhoDecidedAsOneThatNeverStopped) {
+  const Folder folder;
+  const Start here{folder.path};
+  const auto said = [&](const char* name, const char* attribute) {
+    return text_of(sateen::read_attributes(folder / name), attribute);
+  };
+  const auto dupioni = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"-l", "dupioni"});
+    return tiny(more);
+  };
+  ASSERT_EQ(run_sateen(dupioni({"-s", "8", "-o", "whole.exr"}), here).code, 0);
+  ASSERT_EQ(run_sateen(dupioni({"-s", "4", "-o", "a.exr", "--checkpoint", "a.checkpoint"}), here).code, 0);
+  ASSERT_EQ(run_sateen(dupioni({"-s", "8", "-o", "b.exr", "--resume", "a.checkpoint"}), here).code, 0);
+  EXPECT_NE(said("whole.exr", "plan").find("\"pilot\""), std::string::npos);
+  EXPECT_EQ(said("b.exr", "plan"), said("whole.exr", "plan"));
+  EXPECT_EQ(said("b.exr", "candidates_reason"), said("whole.exr", "candidates_reason"));
+  // What was decided otherwise by hand is another picture.
+  const Finished other = run_sateen(dupioni({"-o", "c.exr", "--bounces", "7", "--resume", "a.checkpoint"}), here);
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("bounces is"), std::string::npos) << other.err;
+  const Finished gaps = run_sateen(dupioni({"-o", "c.exr", "--effects", "+gaps", "--resume", "a.checkpoint"}), here);
+  EXPECT_EQ(gaps.code, 2);
+  EXPECT_NE(gaps.err.find("effects is"), std::string::npos) << gaps.err;
+
+  ASSERT_EQ(
+      run_sateen(dupioni({"-s", "4", "--samples-from", "4", "-o", "c.exr", "--checkpoint", "c.checkpoint"}), here)
+          .code,
+      0);
+  ASSERT_EQ(run_sateen({"merge", "a.checkpoint", "c.checkpoint", "-o", "both.exr"}, here).code, 0);
+  EXPECT_EQ(said("both.exr", "plan"), said("whole.exr", "plan"));
+}
+
 TEST(Render, SigUsr1WritesThePictureSoFarAndGoesOn) {
   const Folder folder;
   Start start;

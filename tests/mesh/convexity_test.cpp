@@ -89,6 +89,15 @@ TEST(MeshForm, TheLimitSphereIsConvexAtEveryLevelAndADentIsFound) {
   }
 }
 
+TEST(MeshForm, AQuadThatIsTwistedIntoAValleyIsNotTakenForAConvexOne) {
+  // Its corners are as far off its own plane as the valley between its two triangles is deep: nothing rises above it.
+  Mesh mesh = box({1, 1, 1});
+  const Vec3 corner = mesh.positions[mesh.quads[4][1]];
+  for (Vec3& p : mesh.positions)
+    if (p == corner) p.z -= 0.4f;
+  EXPECT_EQ(mesh_form(mesh), MeshForm::folded);
+}
+
 TEST(MeshForm, ClothIsFolded) {
   for (const char* shape : {"drape", "skirt", "swatch"})
     EXPECT_EQ(mesh_form(subdivide(built_in_shape(shape), 1)), MeshForm::folded) << shape;

@@ -17,9 +17,9 @@ Scene lit_scene(const char* look, const char* map, int width, int height) {
 
 TEST(Candidates, AreTheSameOnAnyNumberOfThreads) {
   const Scene scene = lit_scene("crimson_velvet", "studio_softboxes", 96, 54);
-  const CandidateChoice one = choose_candidates(scene, {}, 1, 1);
+  const CandidateChoice one = choose_candidates(scene, {}, default_error_floor, 1, 1);
   for (const int threads : {2, 3}) {
-    const CandidateChoice other = choose_candidates(scene, {}, 1, threads);
+    const CandidateChoice other = choose_candidates(scene, {}, default_error_floor, 1, threads);
     EXPECT_EQ(other.candidates, one.candidates);
     EXPECT_EQ(other.reason, one.reason);
     ASSERT_EQ(other.trials.size(), one.trials.size());
@@ -35,7 +35,7 @@ TEST(Candidates, AreTheSameOnAnyNumberOfThreads) {
 TEST(Candidates, PilotPredictsTheErrorOfThePicture) {
   for (const char* map : {"studio_softboxes", "low_sun"}) {
     const Scene scene = lit_scene("polyester_satin_charmeuse", map, 96, 54);
-    for (const CandidateTrial& trial : choose_candidates(scene, {}, 5, 2).trials) {
+    for (const CandidateTrial& trial : choose_candidates(scene, {}, default_error_floor, 5, 2).trials) {
       RenderSettings settings = samples(16, 9);
       settings.light.candidates = trial.candidates;
       Film film(96, 54, false);
@@ -46,7 +46,7 @@ TEST(Candidates, PilotPredictsTheErrorOfThePicture) {
 }
 
 CandidateCounts chosen(const char* look, const char* map) {
-  return choose_candidates(lit_scene(look, map, 240, 135), {}, 1, 2).candidates;
+  return choose_candidates(lit_scene(look, map, 240, 135), {}, default_error_floor, 1, 2).candidates;
 }
 
 // Measured on whole pictures at equal time (docs/numbers.md), E^2 over that of eight of each kind: satin among soft
@@ -63,7 +63,7 @@ TEST(Candidates, OfAMapWithoutLightsAreTheTablesAlone) {
   Image map(32, 16, 3);
   for (float& v : map.pixels) v = 2;
   scene.environment = build_environment(std::move(map));
-  const CandidateCounts found = choose_candidates(scene, {}, 1, 2).candidates;
+  const CandidateCounts found = choose_candidates(scene, {}, default_error_floor, 1, 2).candidates;
   EXPECT_EQ(found.map, 0);
   EXPECT_GT(found.table, 0);
 }
@@ -71,7 +71,7 @@ TEST(Candidates, OfAMapWithoutLightsAreTheTablesAlone) {
 TEST(Candidates, StayAsUsualWhereNothingIsSeen) {
   SceneSettings settings = scene_settings("crimson_velvet", 32, 16);
   settings.environment_ev = -200;  // black
-  const CandidateChoice choice = choose_candidates(scene_of(settings), {}, 1, 1);
+  const CandidateChoice choice = choose_candidates(scene_of(settings), {}, default_error_floor, 1, 1);
   EXPECT_EQ(choice.candidates, CandidateCounts(LightSettings().candidates.table, 0));
   EXPECT_EQ(choice.reason, "the pilot met no noise");
 }

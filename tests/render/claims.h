@@ -56,8 +56,9 @@ inline JudgedScene judged_scene(const std::string& name, sateen::SceneSettings s
   JudgedScene judged{name, sateen::assemble_scene(settings, colors, report), {}, {}};
   judged.settings.threads = 2;
   judged.settings.light.bounces = bounces;
-  judged.settings.light.candidates = sateen::choose_candidates(judged.scene, judged.settings.light, 1, 0).candidates;
   judged.settings.error_floor = sateen::error_floor_at(double(report.metered_ev));
+  judged.settings.light.candidates =
+      sateen::choose_candidates(judged.scene, judged.settings.light, judged.settings.error_floor, 1, 0).candidates;
   judged.settings.seed = 777;
   judged.settings.stop.spp = reference_samples;
   judged.reference = sateen::Film(settings.width, settings.height, false);

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "base/error.h"
 #include "look/find.h"
 #include "look/read.h"
 #include "pictures.h"
+#include "render/candidates.h"
 #include "render/loss.h"
 
 using namespace sateen;
@@ -17,8 +19,11 @@ namespace {
 
 Plan plan_of(const SceneSettings& settings, const Scene& scene, const std::string& effects, double error,
              int threads = 2) {
-  return make_plan(scene, read_look(settings.look, settings.look_overrides), read_effects(effects), error, {}, 1,
-                   threads);
+  PlanSettings how;
+  how.switches = read_effects(effects);
+  how.error = error;
+  how.threads = threads;
+  return make_plan(scene, read_look(settings.look, settings.look_overrides), how);
 }
 
 SceneSettings with_mesh(SceneSettings settings, const std::string& mesh, int level) {
@@ -58,7 +63,7 @@ TEST(Loss, IsThatOfWhatIsMissingAndNotOfItsNoise) {
     pixel.value = Vec3d(0.4);
     for (Vec3d& lost : pixel.lost) lost = Vec3d(0.02 + noise(random));
   }
-  const Interval loss = picture_loss(pixels), share = light_share(pixels);
+  const Interval loss = picture_loss(pixels, default_error_floor), share = light_share(pixels);
   const double expected = 0.02 / std::sqrt(0.4 * 0.4 + 0.01);
   EXPECT_LE(loss.low, expected);
   EXPECT_GE(loss.high, expected);
@@ -70,10 +75,38 @@ TEST(Loss, IsThatOfWhatIsMissingAndNotOfItsNoise) {
 }
 
 TEST(Loss, OfNothingIsNothing) {
-  EXPECT_EQ(picture_loss({}).high, 0);
+  EXPECT_EQ(picture_loss({}, default_error_floor).high, 0);
   std::vector<PixelLoss> black(10);
-  EXPECT_EQ(picture_loss(black).high, 0);
+  EXPECT_EQ(picture_loss(black, default_error_floor).high, 0);
   EXPECT_EQ(light_share(black).value, 0);
+}
+
+TEST(Loss, IsThatOfWhatIsRenderedHoweverMuchNothingIsAroundIt) {
+  std::vector<PixelLoss> pixels(100);
+  for (PixelLoss& pixel : pixels) {
+    pixel.value = Vec3d(0.4);
+    for (Vec3d& lost : pixel.lost) lost = Vec3d(0.02);
+  }
+  const Interval alone = picture_loss(pixels, default_error_floor);
+  for (int i = 0; i < 900; ++i) pixels.emplace_back().weight = 0;
+  const Interval beside = picture_loss(pixels, default_error_floor);
+  EXPECT_NEAR(beside.value, alone.value, 1e-12);
+  EXPECT_NEAR(beside.high, alone.high, 1e-12);
+}
+
+TEST(Loss, CountsInProportionToLightAndFloor) {
+  std::vector<PixelLoss> pixels(10);
+  for (size_t i = 0; i < 10; ++i) {
+    pixels[i].value = Vec3d(0.1 * double(i));
+    for (Vec3d& lost : pixels[i].lost) lost = Vec3d(0.03);
+  }
+  const double before = picture_loss(pixels, default_error_floor).value;
+  for (PixelLoss& pixel : pixels) {
+    pixel.value *= 0x1p-6;
+    for (Vec3d& lost : pixel.lost) lost *= 0x1p-6;
+  }
+  EXPECT_EQ(picture_loss(pixels, error_floor_at(6)).value, before);
+  EXPECT_LT(picture_loss(pixels, default_error_floor).value, before / 10);
 }
 
 TEST(Effects, AreReadFromOneList) {
@@ -110,25 +143,22 @@ TEST(Plan, BrightFoldsNeedInterreflectionAndAFlatSheetDoesNot) {
 TEST(Plan, GivenBouncesAreKeptAndThePilotLooksOneFurther) {
   const SceneSettings settings = scene_settings("ivory_duchess_satin", 96, 54);
   const Scene scene = scene_of(settings);
-  EffectSwitches switches = read_effects("auto");
-  switches.bounces = 1;
-  switches.bounce_share = 0.5f;
-  const auto plan = [&](bool pilot) {
-    return make_plan(scene, read_look(settings.look), switches, 0.02, {}, 1, 2, pilot);
-  };
-  const Plan measured = plan(true), given = plan(false);
-  for (const Plan& each : {measured, given}) {
-    EXPECT_EQ(each.bounces, 1);
-    EXPECT_EQ(each.bounce_share, 0.5f);
-    EXPECT_TRUE(each.of(Effect::interreflection).on);
-  }
-  ASSERT_TRUE(measured.of(Effect::interreflection).loss);
-  EXPECT_GT(measured.of(Effect::interreflection).loss->value, 0);
-  EXPECT_FALSE(given.of(Effect::interreflection).share);
-  EXPECT_FALSE(given.of(Effect::interreflection).loss);
-  switches.bounces = 0;
-  EXPECT_FALSE(plan(true).of(Effect::interreflection).on);
-  EXPECT_GT(plan(true).of(Effect::interreflection).share->low, 0);
+  PlanSettings how;
+  how.switches.bounces = 1;
+  how.switches.bounce_share = 0.5f;
+  how.error = 0.02;
+  how.threads = 2;
+  const Look look = read_look(settings.look);
+  const Plan one = make_plan(scene, look, how);
+  EXPECT_EQ(one.bounces, 1);
+  EXPECT_EQ(one.bounce_share, 0.5f);
+  EXPECT_TRUE(one.of(Effect::interreflection).on);
+  ASSERT_TRUE(one.of(Effect::interreflection).loss);
+  EXPECT_GT(one.of(Effect::interreflection).loss->value, 0);
+  how.switches.bounces = 0;
+  const Plan none = make_plan(scene, look, how);
+  EXPECT_FALSE(none.of(Effect::interreflection).on);
+  EXPECT_GT(none.of(Effect::interreflection).share->low, 0);
 }
 
 TEST(Plan, ATighterErrorNeverCallsForLess) {
@@ -254,4 +284,78 @@ TEST(Plan, SelfShadowingThatGeometryRulesOutIsNotMissed) {
       squares += double(a[c] - b[c]) * double(a[c] - b[c]) / (double(b[c]) * double(b[c]) + 0.01);
   }
   EXPECT_LT(std::sqrt(squares / double(3 * off.pixels.size())), 0.003);
+}
+
+TEST(Plan, ItsTextIsReadBackAsThePlanThatItWas) {
+  const SceneSettings settings = scene_settings("silk_chiffon", 48, 32);
+  Scene scene = scene_of(settings);
+  for (const char* effects : {"auto", "none,+gaps", "all"}) {
+    const Plan plan = plan_of(settings, scene, effects, 0.02);
+    EXPECT_EQ(plan_json(read_plan(plan_json(plan))), plan_json(plan)) << effects;
+  }
+  EXPECT_THROW(read_plan("{}"), InputError);
+  EXPECT_THROW(read_plan("{\"error\": 1"), InputError);
+}
+
+TEST(Plan, OfAnotherRenderIsHeldToWhatIsAskedForNow) {
+  const SceneSettings settings = scene_settings("silk_chiffon", 48, 32);
+  const Scene scene = scene_of(settings);
+  const Plan before = plan_of(settings, scene, "auto", 0.02);
+  const auto held = [&](const std::string& effects, std::optional<int> bounces = {}) {
+    EffectSwitches switches = read_effects(effects);
+    switches.bounces = bounces;
+    Plan plan = before;
+    hold_to(switches, plan);
+    return plan;
+  };
+  ASSERT_TRUE(before.of(Effect::gaps).on);
+  EXPECT_EQ(plan_json(held("auto")), plan_json(before));
+  EXPECT_EQ(plan_json(held("auto,+gaps")), plan_json(before));
+  EXPECT_FALSE(held("auto,-gaps").of(Effect::gaps).on);
+  EXPECT_FALSE(held("none").of(Effect::self_shadowing).on);
+  EXPECT_EQ(held("none").bounces, 0);
+  EXPECT_EQ(held("auto", 5).bounces, 5);
+  EXPECT_FALSE(held("auto", 0).of(Effect::interreflection).on);
+  EXPECT_FALSE(held("all").of(Effect::back).on) << "the look has none";
+}
+
+TEST(Plan, DoesNotDependOnTheUnitOfLight) {
+  const SceneSettings settings = scene_settings("dupioni", 96, 54);
+  const Look look = read_look(settings.look);
+  Scene scene = scene_of(settings);
+  Image map(scene.environment.width, scene.environment.height, 3);
+  for (size_t i = 0; i < scene.environment.texels.size(); ++i)
+    for (int c = 0; c < 3; ++c) map.pixels[3 * i + size_t(c)] = scene.environment.texels[i].radiance[c];
+  const auto decided = [&](int stops) {
+    Image stored = map;
+    for (float& value : stored.pixels) value = std::ldexp(value, stops);
+    scene.environment = build_environment(stored);
+    PlanSettings how;
+    how.error_floor = error_floor_at(double(metered_exposure_ev(scene.environment)));
+    how.threads = 2;
+    const Plan plan = make_plan(scene, look, how);
+    std::string text = std::to_string(plan.bounces);
+    for (const PlannedEffect& p : plan.effects) text += (p.on ? "\non " : "\noff ") + p.reason;
+    LightSettings light;
+    return text + "\n" + settle_candidates(scene, {}, light, how.error_floor, 1, 2) +
+           candidates_text(light.candidates);
+  };
+  const std::string usual = decided(0);
+  EXPECT_EQ(decided(-6), usual);
+  EXPECT_EQ(decided(6), usual);
+}
+
+TEST(Plan, TellsTheNumbersThatTexturesGiveAndNotThoseBehindThem) {
+  SceneSettings settings = scene_settings("champagne_silk_satin", 48, 32);
+  const std::string texture = R"({"texture": ")" SATEEN_SOURCE_DIR R"(/looks/textures/damask_mask.png", )";
+  const auto planned = [&](const std::string& eta) {
+    settings.look_overrides = {"warp.eta=" + texture + eta + "}", "weft.eta=1"};
+    return plan_of(settings, scene_of(settings), "auto", 0.1).of(Effect::surface_lobe);
+  };
+  const PlannedEffect none = planned(R"("scale": 0, "offset": 1)");
+  EXPECT_FALSE(none.on) << none.reason;
+  const PlannedEffect some = planned(R"("scale": 0.4, "offset": 1.1)");
+  EXPECT_TRUE(some.on);
+  EXPECT_EQ(some.reason.find("1.46"), std::string::npos) << some.reason;
+  EXPECT_NE(some.reason.find("eta 1.1 to 1.5 in the warp, 1 in the weft"), std::string::npos) << some.reason;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "error_scenes.h"
@@ -22,8 +24,104 @@ SceneSettings settings_of(const ErrorScene& s, int width, int height) {
   return settings;
 }
 
-Plan plan_of(const SceneSettings& settings, const Scene& scene, const std::string& effects, double error) {
-  return make_plan(scene, read_look(settings.look), read_effects(effects), error, {}, 1, 2);
+Plan plan_of(const SceneSettings& settings, const Scene& scene, const std::string& effects, double error,
+             double error_floor = default_error_floor) {
+  PlanSettings how;
+  how.switches = read_effects(effects);
+  how.error = error;
+  how.error_floor = error_floor;
+  how.threads = 2;
+  return make_plan(scene, read_look(settings.look), how);
+}
+
+std::vector<Verdict> verdicts_of(const Scene& scene, const Plan& plan, double error_floor = default_error_floor) {
+  return verify_plan(scene, plan, {}, error_floor, 1, 2);
+}
+
+/// A scene that plans are tested on, beside those that errors are.
+struct PlanScene {
+  ErrorScene scene;
+  float zoom = 1;
+  int ground = -1;        ///< a GroundKind; -1: none
+  float map_ev = 0;       ///< of the light
+  float exposure_ev = 0;  ///< of the picture: a dim light is metered, or the picture is dark
+  float f_stop = 0;       ///< 0: a pinhole
+  float shutter_deg = 0;
+  bool seen_map = false;  ///< as the backdrop
+};
+
+std::vector<PlanScene> plan_scenes() {
+  constexpr int catcher = int(GroundKind::catcher), floor = int(GroundKind::floor),
+                cyclorama = int(GroundKind::cyclorama);
+  std::vector<PlanScene> all{
+      // Sheer cloth.
+      {{"silk_organza", "sphere", "studio_softboxes"}},
+      {{"silk_organza", "drape", "low_sun"}},
+      {{"silk_organza", "swatch", "overcast"}, 1, -1, 0, 0, 0, 0, true},
+      {{"silk_organza", "skirt", "three_light_rig"}},
+      {{"silk_chiffon", "sphere", "low_sun"}, 1, -1, 0, 0, 0, 0, true},
+      {{"silk_chiffon", "drape", "studio_softboxes"}},
+      {{"silk_chiffon", "skirt", "overcast"}, 1, floor},
+      {{"dupioni", "sphere", "low_sun"}},
+      {{"dupioni", "skirt", "three_light_rig"}, 1, -1, 0, 0, 0, 0, true},
+      {{"linen_plain", "sphere", "studio_softboxes"}},
+      {{"natural_linen", "drape", "low_sun"}},
+      // Dim light that is metered, and dark pictures.
+      {{"champagne_silk_satin", "drape", "studio_softboxes"}, 1, -1, -6, 6},
+      {{"ivory_duchess_satin", "skirt", "overcast"}, 1, -1, -10, 10},
+      {{"silk_organza", "sphere", "overcast"}, 1, -1, -6, 6},
+      {{"dupioni", "drape", "low_sun"}, 1, -1, -8, 8},
+      {{"emerald_satin", "drape", "studio_softboxes"}, 1, -1, -4, 0},
+      {{"midnight_silk", "skirt", "studio_softboxes"}, 1, -1, 5, -5},
+      // Grounds.
+      {{"champagne_silk_satin", "drape", "low_sun"}, 1, catcher},
+      {{"silk_organza", "sphere", "studio_softboxes"}, 1, catcher},
+      {{"crimson_velvet", "skirt", "overcast"}, 1, catcher},
+      {{"emerald_satin", "sphere", "low_sun"}, 1, floor},
+      {{"pewter_satin", "sphere", "studio_softboxes"}, 1, cyclorama},
+      {{"linen_plain", "swatch", "three_light_rig"}, 1, floor},
+      // Threads from near.
+      {{"shot_taffeta", "swatch", "studio_softboxes"}, 70},
+      {{"shot_taffeta", "drape", "low_sun"}, 30},
+      {{"natural_linen", "swatch", "overcast"}, 20},
+      {{"natural_linen", "drape", "studio_softboxes"}, 6},
+      {{"dupioni", "swatch", "studio_softboxes"}, 60},
+      {{"silk_organza", "swatch", "low_sun"}, 80},
+      {{"silk_chiffon", "drape", "three_light_rig"}, 40, -1, 0, 0, 0, 0, true},
+      // Lens, shutter, back, pattern, map seen.
+      {{"champagne_silk_satin", "drape", "studio_softboxes"}, 1, -1, 0, 0, 64, 0, true},
+      {{"emerald_satin", "drape", "low_sun"}, 1, -1, 0, 0, 400},
+      {{"pewter_satin", "sphere", "low_sun"}, 1, -1, 0, 0, 0, 0.1f},
+      {{"silk_damask", "skirt", "studio_softboxes"}},
+      {{"printed_silk", "sphere", "overcast"}},
+  };
+  for (const ErrorScene& scene : error_scenes()) all.push_back({scene});
+  return all;
+}
+
+Scene scene_of(const PlanScene& s, SceneSettings& settings) {
+  settings = settings_of(s.scene, 160, 90);
+  settings.camera.zoom = s.zoom;
+  settings.environment_ev = s.map_ev;
+  if (s.seen_map) settings.backdrop = Backdrop::environment;
+  if (s.ground >= 0) {
+    settings.stage.ground = GroundSettings();
+    settings.stage.ground->kind = GroundKind(s.ground);
+  }
+  if (s.f_stop > 0) {
+    settings.stage.lens = LensSettings();
+    settings.stage.lens->f_stop = s.f_stop;
+  }
+  settings.stage.shutter_deg = s.shutter_deg;
+  return sateen_test::scene_of(settings);
+}
+
+/// Whether a loss lies above an error beyond what chance does to one of `most_verdicts` losses in twenty such tests:
+/// Sidak's 1 - 0.95^(1 / most_verdicts) = 1.7e-4 of a normal deviate lies above 3.58.
+constexpr int most_verdicts = 300;
+bool beyond_chance(const Interval& loss, double error) {
+  const double square = loss.value * loss.value, deviation = (loss.high * loss.high - square) / 1.96;
+  return square - 3.58 * deviation > error * error;
 }
 
 const Verdict& of(const std::vector<Verdict>& all, Effect effect) {
@@ -35,30 +133,44 @@ const Verdict& of(const std::vector<Verdict>& all, Effect effect) {
 }  // namespace
 
 // The plan's error is the difference to the picture with every effect, on other pixels with another seed. A plan may
-// be beyond the error asked in one scene of twenty; with its allowance of a half none should be.
+// be beyond the error asked in one scene of twenty; with its allowance of a half none should be. The test fails in
+// one of twenty sets of scenes of which every effect lies just at the error asked for, and practically never where
+// they lie at half of it, as they should.
 TEST(VerifyPlan, TheErrorOfPlansIsBelowTheErrorAsked) {
   const bool all = std::getenv("SATEEN_LONG_TESTS") != nullptr;
-  const std::vector<double> errors = all ? std::vector<double>{0.1, 0.03, 0.01} : std::vector<double>{0.03};
-  int scenes = 0, beyond = 0, ruled_out = 0;
-  for (size_t i = 0; i < error_scenes().size(); i += all ? 1 : 4)
+  const std::vector<PlanScene> scenes = plan_scenes();
+  ASSERT_GE(scenes.size(), 60u);
+  const size_t others = scenes.size() - error_scenes().size();
+  // Short: a sheer ball, a sheer drape, dim light, a catcher, near threads, and some of the rest.
+  const std::vector<size_t> few{0, 5, 11, 18, 26, others + 8, others + 17, others + 24};
+  int plans = 0, beyond = 0, ruled_out = 0;
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    if (!all && std::find(few.begin(), few.end(), i) == few.end()) continue;
+    const PlanScene& s = scenes[i];
+    SceneSettings settings;
+    const Scene scene = scene_of(s, settings);
+    const double floor = error_floor_at(double(s.exposure_ev));
+    // Scenes that errors are tested on, at three of them.
+    const std::vector<double> errors =
+        all && i >= others ? std::vector<double>{0.1, 0.03, 0.01} : std::vector<double>{0.03};
     for (const double error : errors) {
-      const ErrorScene& s = error_scenes()[i];
-      const SceneSettings settings = settings_of(s, 192, 108);
-      const Scene scene = scene_of(settings);
-      const Plan plan = plan_of(settings, scene, "auto", error);
+      const Plan plan = plan_of(settings, scene, "auto", error, floor);
       double squares = 0;
-      for (const Verdict& v : verify_plan(scene, plan, {}, 1, 2)) {
+      for (const Verdict& v : verdicts_of(scene, plan, floor)) {
         squares += v.loss.value * v.loss.value;
         ruled_out += v.tested;
-        EXPECT_NE(int(v.outcome), int(Verdict::Outcome::wrong)) << name_of(s) << " at " << error;
+        EXPECT_FALSE(beyond_chance(v.loss, error)) << name_of(s.scene) << ", scene " << i << " at " << error << ": "
+                                                   << effect_info(v.effect).name << " " << percent_text(v.loss);
       }
-      ++scenes;
+      ++plans;
       beyond += std::sqrt(squares) > error;
     }
-  std::printf("%d plans, %d of them beyond the error asked, %d effects were ruled out and tested\n", scenes, beyond,
+  }
+  std::printf("%d plans, %d of them beyond the error asked, %d effects were ruled out and tested\n", plans, beyond,
               ruled_out);
-  EXPECT_LE(beyond, scenes / 20);
-  EXPECT_GE(ruled_out, scenes / 3) << "a test of nothing";
+  EXPECT_LE(beyond, plans / 20);
+  EXPECT_LE(ruled_out, most_verdicts);
+  EXPECT_GE(ruled_out, plans / 3) << "a test of nothing";
 }
 
 TEST(VerifyPlan, APlanThatLeavesOutWhatIsNeededIsFoundWrong) {
@@ -68,16 +180,14 @@ TEST(VerifyPlan, APlanThatLeavesOutWhatIsNeededIsFoundWrong) {
   PlannedEffect& bounces = plan.effects[size_t(Effect::interreflection)];
   bounces.on = false;  // planted
   plan.bounces = 0;
-  EXPECT_EQ(int(of(verify_plan(scene, plan, {}, 1, 2), Effect::interreflection).outcome),
-            int(Verdict::Outcome::wrong));
+  EXPECT_EQ(int(of(verdicts_of(scene, plan), Effect::interreflection).outcome), int(Verdict::Outcome::wrong));
 
   plan = plan_of(settings, scene, "auto", 0.02);
   plan.effects[size_t(Effect::self_shadowing)].on = false;  // planted
-  EXPECT_EQ(int(of(verify_plan(scene, plan, {}, 1, 2), Effect::self_shadowing).outcome),
-            int(Verdict::Outcome::wrong));
+  EXPECT_EQ(int(of(verdicts_of(scene, plan), Effect::self_shadowing).outcome), int(Verdict::Outcome::wrong));
 
   plan = plan_of(settings, scene, "-interreflection", 0.02);
-  const std::vector<Verdict> asked = verify_plan(scene, plan, {}, 1, 2);
+  const std::vector<Verdict> asked = verdicts_of(scene, plan);
   EXPECT_EQ(int(of(asked, Effect::interreflection).outcome), int(Verdict::Outcome::right)) << "the user's own wish";
   EXPECT_GT(of(asked, Effect::interreflection).loss.low, 0.02);
 }
