@@ -10,6 +10,7 @@
 #include "mesh/obj_groups.h"
 #include "mesh/obj_tags.h"
 #include "mesh/obj_text.h"
+#include "mesh/wanted_placement.h"
 
 namespace sateen {
 
@@ -30,7 +31,7 @@ struct Count {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text, name) { mesh_.name = name; }
+  Reader(std::string_view text, const std::string& name) : whole_(text), text_(text, name) { mesh_.name = name; }
   ControlMesh read();
 
  private:
@@ -42,10 +43,12 @@ class Reader {
   bool read_index(std::string_view word, std::string_view what, size_t count, bool is_uv, int& index);
   void keep_face(int line);
   void cut_faces();
+  void move_to_origin();
   void check_forward_indices();
   void drop_bad_uvs();
   void warn(const Count& count, const char* thing, const char* one, const char* many);
 
+  std::string_view whole_;
   Text text_;
   ControlMesh mesh_;
   obj::Tags tags_;
@@ -216,7 +219,16 @@ void Reader::cut_faces() {
       if (any_uv_) mesh_.uv_indices.push_back(c.uv);
     }
   };
+  // A vertex that one face alone has is a sharp corner; in several pieces of that face it would be a round one.
+  constexpr float sharpest = 10;
+  std::vector<int> only_face(mesh_.positions.size(), -1);  // -2: several
   size_t at = 0;
+  for (size_t i = 0; i < sizes.size(); ++i)
+    for (const size_t end = at + size_t(sizes[i]); at < end; ++at) {
+      int& only = only_face[size_t(positions[at])];
+      only = only == -1 || only == int(i) ? int(i) : -2;
+    }
+  at = 0;
   std::vector<PolygonCorner> face;
   auto tangled = tangled_.begin();
   for (size_t i = 0; i < sizes.size(); ++i) {
@@ -227,12 +239,29 @@ void Reader::cut_faces() {
       add(face);
       continue;
     }
+    for (const PolygonCorner& c : face)
+      if (only_face[size_t(c.vertex)] == int(i)) mesh_.corners.push_back({c.vertex, sharpest});
     const std::vector<std::vector<PolygonCorner>> pieces = cut_polygon(std::move(face), mesh_.positions);
     for (const std::vector<PolygonCorner>& piece : pieces) add(piece);
     (pieces.empty() ? dropped_ : cut_).add(tangled->line);
     ++tangled;
   }
   first_of_face_.push_back(int(mesh_.face_sizes.size()));
+}
+
+/// Far from the origin floats round away what the file says: there positions are read anew, in double.
+void Reader::move_to_origin() {
+  const Vec3d origin = wanted_placement(mesh_).origin;
+  if (origin == Vec3d(0)) return;
+  mesh_.placement.origin = origin;
+  Text text(whole_, mesh_.name);
+  size_t vertex = 0;
+  while (vertex < mesh_.positions.size() && text.next_line()) {
+    if (text.next_word() != "v") continue;
+    Vec3d p(0);
+    for (int k = 0; k < 3; ++k) obj::to_double(text.next_word(), p[k]);
+    mesh_.positions[vertex++] = Vec3(p - origin);
+  }
 }
 
 void Reader::check_forward_indices() {
@@ -294,6 +323,7 @@ ControlMesh Reader::read() {
     if (text_.errors().empty()) {
       if (any_uv_) mesh_.uv_indices.resize(mesh_.position_indices.size(), -1);
       const int file_faces = int(mesh_.face_sizes.size());
+      move_to_origin();
       cut_faces();
       tags_.apply(text_, first_of_face_, file_faces, mesh_);
     }
