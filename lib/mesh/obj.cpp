@@ -219,6 +219,9 @@ void Reader::cut_faces() {
       if (any_uv_) mesh_.uv_indices.push_back(c.uv);
     }
   };
+  // Twenty polygons of a thousand corners, or a hundred thousand of ten: a second or two.
+  constexpr double most_effort = 2e7;
+  double effort = 0;
   // A vertex that one face alone has is a sharp corner; in several pieces of that face it would be a round one.
   constexpr float sharpest = 10;
   std::vector<int> only_face(mesh_.positions.size(), -1);  // -2: several
@@ -241,7 +244,9 @@ void Reader::cut_faces() {
     }
     for (const PolygonCorner& c : face)
       if (only_face[size_t(c.vertex)] == int(i)) mesh_.corners.push_back({c.vertex, sharpest});
-    const std::vector<std::vector<PolygonCorner>> pieces = cut_polygon(std::move(face), mesh_.positions);
+    effort += double(face.size()) * double(face.size());
+    std::vector<std::vector<PolygonCorner>> pieces;
+    if (effort <= most_effort) pieces = cut_polygon(std::move(face), mesh_.positions);
     for (const std::vector<PolygonCorner>& piece : pieces) add(piece);
     (pieces.empty() ? dropped_ : cut_).add(tangled->line);
     ++tangled;
@@ -330,19 +335,19 @@ ControlMesh Reader::read() {
   }
   if (!text_.errors().empty()) throw InputError(InputError::Kind::wrong, std::move(text_.errors()));
   if (mesh_.face_sizes.empty())
-    throw InputError(
-        fmt::format("{}: {}", mesh_.name,
-                    seen_face ? "no face is left after dropping those that meet a vertex twice and have no area"
-                              : "holds no face, expected at least one"),
-        seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
+    throw InputError(fmt::format("{}: {}", mesh_.name,
+                                 seen_face ? "no face is left after dropping those that meet a vertex twice"
+                                           : "holds no face, expected at least one"),
+                     seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
   drop_bad_uvs();
   if (!any_uv_) mesh_.uvs.clear();
   warn(repeated_, "face", "repeats a corner: the repetition was dropped",
        "repeat a corner: the repetition was dropped");
   warn(cut_, "face", "meets a vertex twice, as around a hole: it was cut into simple ones",
        "meet a vertex twice, as around a hole: they were cut into simple ones");
-  warn(dropped_, "face", "meets a vertex twice and crosses itself or has no area: it was dropped",
-       "meet a vertex twice and cross themselves or have no area: they were dropped");
+  warn(dropped_, "face",
+       "meets a vertex twice and crosses itself, has no area or is too large to cut: it was dropped",
+       "meet a vertex twice and cross themselves, have no area or are too large to cut: they were dropped");
   warn(mixed_uv_, "face", "has UVs at some corners only: its UVs were dropped",
        "have UVs at some corners only: their UVs were dropped");
   warn(bad_uv_, "texture coordinate", "is not finite or reaches 1e15: the faces that use it lost their UVs",

@@ -118,7 +118,7 @@ TEST(Obj, RefusesAFileWithoutFaces) {
   EXPECT_EQ(error_of(""), none);
   EXPECT_EQ(error_of(square), none);
   EXPECT_EQ(error_of(square + "f 1 1 2\n"),
-            "error: a.obj: no face is left after dropping those that meet a vertex twice and have no area");
+            "error: a.obj: no face is left after dropping those that meet a vertex twice");
 }
 
 TEST(Obj, ReportsAllErrorsAtOnceButNoMoreThanTwentyInFull) {
@@ -168,7 +168,8 @@ TEST(Obj, DropsRepeatedVerticesAndCountsThem) {
   ASSERT_EQ(m.warnings.size(), 2u);
   EXPECT_EQ(m.warnings[0], "a.obj:6: 1 face repeats a corner: the repetition was dropped");
   EXPECT_EQ(m.warnings[1],
-            "a.obj:7: 2 faces meet a vertex twice and cross themselves or have no area: they were dropped");
+            "a.obj:7: 2 faces meet a vertex twice and cross themselves, have no area or are too large to cut: they "
+            "were dropped");
 }
 
 TEST(Obj, TakesTheUvsOfAFaceWhoseUvsAreNotFinite) {
