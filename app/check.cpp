@@ -122,10 +122,11 @@ void check_mesh(Finding& f, bool weld) {
     f.notices.push_back(touching + ": a crease shows there; weld them on export, or with --weld");
   }
   f.facts.push_back("cage of " + cage_text(cage));
-  if (!cage.creases.empty() || !cage.corners.empty() || !cage.holes.empty())
-    f.facts.push_back(fmt::format("{}, {}, {}", counted((long long)cage.creases.size(), "creased edge"),
-                                  counted((long long)cage.corners.size(), "sharp corner"),
-                                  counted((long long)cage.holes.size(), "face") + " cut out as holes"));
+  if (!cage.creases.empty()) f.facts.push_back(counted((long long)cage.creases.size(), "creased edge"));
+  if (!cage.corners.empty()) f.facts.push_back(counted((long long)cage.corners.size(), "sharp corner"));
+  if (!cage.holes.empty())
+    f.facts.push_back(counted((long long)cage.holes.size(), "face") +
+                      (cage.holes.size() == 1 ? " cut out as a hole" : " cut out as holes"));
   settle_placement(cage);
   const Mesh mesh = subdivide(cage, 1);
   const Vec3d size = Vec3d(mesh.bounds_max - mesh.bounds_min) * mesh.placement.unit;
