@@ -8,6 +8,7 @@
 
 #include "image/color.h"
 #include "image/image.h"
+#include "image/limits.h"
 
 namespace sateen {
 
@@ -21,17 +22,13 @@ struct ImageFileInfo {
   std::optional<ColorManager::Chromaticities> chromaticities;
 };
 
-struct ImageLimits {
-  int side = 32768;                     ///< pixels
-  long long decoded_bytes = 1ll << 30;  ///< as float, checked in 64 bit before allocation
-};
-
 ImageFileInfo read_image_info(const std::filesystem::path& path);
 
 /// All channels as float. Only regular files within `limits`; InputError says what was found and expected.
 /// Deep, tiled, mip-mapped and multi-part files: the first flat part's full resolution; data windows are placed
 /// in their display window (black outside).
-Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {}, ImageFileInfo* info = nullptr);
+Image read_image(const std::filesystem::path& path, const ImageLimits& limits = image_limits(),
+                 ImageFileInfo* info = nullptr);
 
 /// One named group of channels of an OpenEXR file.
 struct ImageLayer {
