@@ -19,6 +19,10 @@ ImageLimits limits_in_force;
   d.help = help;
   throw InputError(InputError::Kind::unreadable, {d});
 }
+
+std::string shown(double gibibytes) {
+  return gibibytes < 0.1 ? fmt::format("{:.2g}", gibibytes) : fmt::format("{:.1f}", gibibytes);
+}
 }  // namespace
 
 void set_image_limits(const ImageLimits& limits) {
@@ -50,8 +54,8 @@ void check_image_size(const std::filesystem::path& path, const std::string& what
            limits.side < 1000000 ? help() : "make it smaller");
   if (width > limits.decoded_bytes / pixel / height)
     refuse(path,
-           fmt::format("its {} of {} x {} pixels with {} channels takes {:.1f} GiB decoded, expected at most {:.1f}",
-                       what, width, height, channels, gibibytes, double(limits.decoded_bytes) / 0x1p30),
+           fmt::format("its {} of {} x {} pixels with {} channels takes {} GiB decoded, expected at most {}", what,
+                       width, height, channels, shown(gibibytes), shown(double(limits.decoded_bytes) / 0x1p30)),
            help());
 }
 
