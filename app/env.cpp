@@ -8,6 +8,7 @@
 #include "console.h"
 #include "environment_text.h"
 #include "exit_code.h"
+#include "light_flags.h"
 #include "look/json_writer.h"
 #include "outputs.h"
 #include "render/picture.h"
@@ -65,12 +66,17 @@ int env_inspect(const std::vector<std::string>& words) {
   command.number("--env-rotate", "DEG", options.rotation_deg, -36000, 36000, "turns the light to the right");
   command.number("--env-exposure", "EV", options.exposure_ev, -100, 100, "brightens the light by stops");
   command.text("--env-space", "NAME", options.color_space, "colour space of the map (default: as the file says)");
+  add_layer_flag(command, options.layer);
+  command.integer("--map-size", "N", options.width, 0, 65536,
+                  "shrinks a wider map to N texels across while it is read");
+  add_image_limit(command);
   command.text("--ocio", "FILE", ocio, "colour config, or built-in (default: $OCIO, else built-in)");
   command.text("--working", "NAME", working, "space of the numbers (default: the config's scene_linear role)");
   command.flag("--json", voice.json, "the same as JSON");
   command.example("sateen env inspect studio_softboxes",
                   "azimuth 0 is the camera's side, 90 the right of the picture");
   if (!command.parse(words)) return done;
+  options.limits = image_limits();
   const ColorManager colors(ocio, working);
   for (const std::string& warning : colors.warnings()) print_warning(warning);
   JsonWriter w;

@@ -7,6 +7,7 @@
 
 #include "base/nearest_name.h"
 #include "console.h"
+#include "light_flags.h"
 #include "look/json.h"
 #include "mesh/shapes.h"
 #include "render/quality.h"
@@ -38,6 +39,8 @@ void add_scene(Command& c, PictureFlags& f) {
   c.number("--env-rotate", "DEG", s.environment_rotation_deg, -36000, 36000, "turns the light to the right");
   c.number("--env-exposure", "EV", s.environment_ev, -100, 100, "brightens the light by stops");
   c.text("--env-space", "NAME", s.environment_space, "colour space of the map (default: as the file says)");
+  add_layer_flag(c, s.environment_layer);
+  add_image_limit(c);
   c.custom(
       "--backdrop", "none|environment|blurred[:DEG]|COLOUR", 1, 1,
       [&f](const auto& w) { read_backdrop(w.back(), f.scene, f.display.ground); },

@@ -24,7 +24,6 @@
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
 #include "scene/environment_inspect.h"
-#include "scene/environment_size.h"
 #include "scene/near_weave.h"
 
 namespace sateen {
@@ -172,7 +171,8 @@ void settle_weave(const SceneSettings& settings, bool sized_textures, Scene& sce
 
 std::string hash_environment(const Environment& environment) {
   Hash hash;
-  for (const Environment::Texel& texel : environment.texels) hash.add_bytes(&texel.radiance, sizeof texel.radiance);
+  for (int y = 0; y < environment.height; ++y)
+    for (int x = 0; x < environment.width; ++x) hash.add_bytes(&environment.radiance_at(x, y), sizeof(Color));
   return hash.add(fmt::format("{}x{}", environment.width, environment.height)).hex();
 }
 
@@ -198,10 +198,9 @@ Environment read_light(const SceneSettings& settings, const ColorManager& colors
   options.color_space = settings.environment_space;
   options.rotation_deg = settings.environment_rotation_deg;
   options.exposure_ev = settings.environment_ev;
-  Environment map = read_environment(settings.environment, colors, options);
-  const int width = settings.approximations.map_size;
-  if (width <= 0 || width >= map.width) return map;
-  return shrink_environment(map, width, int(std::lround(double(map.height) * width / map.width)));
+  options.layer = settings.environment_layer;
+  options.width = settings.approximations.map_size;
+  return read_environment(settings.environment, colors, options);
 }
 
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report) {
