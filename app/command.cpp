@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "base/nearest_name.h"
 #include "console.h"
@@ -55,12 +56,24 @@ std::string range_text(double low, double high) {
 }
 }  // namespace
 
+struct Phrase {
+  std::string names;
+  std::function<bool(const std::string&)> joins;
+};
+
+// Whether the word is that flag, or begins --flag=value.
+bool is_flag(const std::string& word, const std::string& names) {
+  const std::string name = word.substr(0, word.find('='));
+  return name == long_name(names) || (names[1] != '-' && name == names.substr(0, 2));
+}
+
 struct Command::State {
   std::string name, summary, usage, current_group = "Flags";
   std::vector<std::string> paragraphs;
   std::vector<Flag> flags;
   std::vector<std::pair<std::string, std::string>> examples;
   std::vector<std::string> long_names, words;
+  std::vector<Phrase> phrases;
   std::string argument, argument_help;
   std::vector<std::string>* arguments = nullptr;
   int fewest_arguments = 0, most_arguments = 0;
@@ -76,8 +89,40 @@ struct Command::State {
     faults.insert(faults.end(), error.diagnostics.begin(), error.diagnostics.end());
   }
   std::string usage_line() const { return fmt::format("usage: sateen {} {}", name, usage); }
+  std::vector<std::string> settled(const std::vector<std::string>& typed);
   void collect_leftovers();
 };
+
+// The words as the parser wants them: -look means --look, and the words of a phrase become one.
+std::vector<std::string> Command::State::settled(const std::vector<std::string>& typed) {
+  const auto is_known = [&](const std::string& flag) {
+    return std::find(long_names.begin(), long_names.end(), flag) != long_names.end();
+  };
+  std::vector<std::string> out;
+  for (size_t i = 0; i < typed.size(); ++i) {
+    std::string word = typed[i];
+    if (word == "--") {
+      out.insert(out.end(), typed.begin() + std::ptrdiff_t(i), typed.end());
+      break;
+    }
+    if (word.size() > 2 && word[0] == '-' && word[1] != '-') {
+      const std::string doubled = "-" + word, flag = doubled.substr(0, doubled.find('='));
+      if (is_known(flag)) word = doubled;
+    }
+    // The parser would take the next word instead.
+    if (word.ends_with('=') && is_known(word.substr(0, word.size() - 1))) {
+      fault(InputError(word.substr(0, word.size() - 1) + " is empty"));
+      continue;
+    }
+    out.push_back(word);
+    for (const Phrase& phrase : phrases) {
+      if (!is_flag(word, phrase.names)) continue;
+      if (word.find('=') == std::string::npos && i + 1 < typed.size()) out.push_back(typed[++i]);
+      while (i + 1 < typed.size() && phrase.joins(typed[i + 1])) out.back() += " " + typed[++i];
+    }
+  }
+  return out;
+}
 
 Command::Command(std::string name, std::string summary, std::string usage) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -202,6 +247,25 @@ void Command::number(const std::string& names, const std::string& value, float& 
       help);
 }
 
+void Command::share(const std::string& names, const std::string& value, double& to, double low, double high,
+                    const std::string& help) {
+  custom(
+      names, value, 1, 1,
+      [&to, names, low, high](const std::vector<std::string>& words) {
+        to = read_share(long_name(names), words.back(), low, high);
+      },
+      help);
+}
+
+void Command::phrase(const std::string& names, const std::string& value,
+                     std::function<bool(const std::string&)> joins, std::function<void(const std::string&)> read,
+                     const std::string& help) {
+  state_->phrases.push_back({names, std::move(joins)});
+  custom(
+      names, value, 1, 1, [read = std::move(read)](const std::vector<std::string>& words) { read(words.back()); },
+      help);
+}
+
 void Command::arguments(const std::string& value, std::vector<std::string>& to, int fewest, int most,
                         const std::string& help) {
   State& s = *state_;
@@ -253,7 +317,8 @@ bool Command::parse(const std::vector<std::string>& words) {
   State& s = *state_;
   s.words = words;
   try {
-    s.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    const std::vector<std::string> settled = s.settled(words);
+    s.app.parse(std::vector<std::string>(settled.rbegin(), settled.rend()));
     if (!s.help_asked) s.collect_leftovers();
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what(), flag = text.substr(0, text.find(':'));
@@ -310,13 +375,32 @@ int read_integer(const std::string& what, const std::string& text, long long low
   return int(value);
 }
 
-double read_number(const std::string& what, const std::string& text, double low, double high) {
+namespace {
+std::optional<double> whole_number(std::string_view text) {
   double value = 0;
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+');
-  const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value < low || value > high)
-    throw InputError(fmt::format("{} is {}, expected {}", what, shown_name(text), range_text(low, high)));
+  if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
   return value;
+}
+}  // namespace
+
+double read_number(const std::string& what, const std::string& text, double low, double high) {
+  const std::optional<double> value = whole_number(text);
+  if (!value || *value < low || *value > high)
+    throw InputError(fmt::format("{} is {}, expected {}", what, shown_name(text), range_text(low, high)));
+  return *value;
+}
+
+double read_share(const std::string& what, const std::string& text, double low, double high) {
+  const size_t digits = text.find_last_not_of(" %") + 1;
+  const bool percent = text.find('%', digits) != std::string::npos && std::count(text.begin(), text.end(), '%') == 1;
+  const std::optional<double> value = whole_number(percent ? text.substr(0, digits) : text);
+  const double share = value.value_or(-1) / (percent ? 100 : 1);
+  if (!value || share < low || share > high)
+    throw InputError(fmt::format("{} is {}, expected {}, or a percentage such as 2%", what, shown_name(text),
+                                 range_text(low, high)));
+  return share;
 }
 
 }  // namespace sateen::app
