@@ -85,7 +85,7 @@ TEST(Hostile, NoControlCharacterOfAnyKindOfFileReachesTheTerminal) {
   const std::string clear = "\x1b[2J";
   write_text(folder / ("a" + clear + ".obj"),
              "g " + clear + "\nusemtl " + clear + "\nv 0 0 0\nf 1 2 " + clear + "\n");
-  write_text(folder / "a.hdr", "#?RADIANCE\nFORMAT=" + clear + "\n\n-Y 2 +X 4\n");
+  write_text(folder / ("a" + clear + ".hdr"), "#?RADIANCE\nFORMAT=" + clear + "\n\n-Y 2 +X 4\n");
   write_text(
       folder / "a.ocio",
       "ocio_profile_version: 2\n\"un\\e[2Jknown\": 3\nroles: {default: \"raw\\e[2J\", scene_linear: \"raw\\e[2J\"}\n"
@@ -94,7 +94,7 @@ TEST(Hostile, NoControlCharacterOfAnyKindOfFileReachesTheTerminal) {
   write_text(folder / "a.json", "{\"title\": \"\\u001b[2J\\u009b\", \"back\": \"\\u001b[2J\"}");
   write_text(folder / "a.wif", "[WIF]\n[WEAVING]\nRising Shed=" + clear + "\n");
   const std::vector<std::vector<std::string>> all{{"check", "a" + clear + ".obj"},
-                                                  {"env", "inspect", "a.hdr"},
+                                                  {"env", "inspect", "a" + clear + ".hdr"},
                                                   {"render", "--ocio", "a.ocio", "--display", clear},
                                                   {"look", "check", "./a.json"},
                                                   {"look", "resolve", "linen_plain", "--set", "weave.draft=a.wif"},
