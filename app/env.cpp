@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "command.h"
 #include "commands.h"
@@ -14,6 +15,7 @@
 #include "render/picture.h"
 #include "scene/environment_file.h"
 #include "scene/environment_make.h"
+#include "typed_values.h"
 
 namespace sateen::app {
 
@@ -26,11 +28,10 @@ int env_make(const std::vector<std::string>& words) {
                   "DESCRIPTION.json -o MAP.exr [-r W H]");
   command.arguments("DESCRIPTION.json", names, 1, 1, "lights as JSON; those of the shipped maps are in envmaps/");
   command.text("-o,--output", "FILE.exr", output, "where to write it");
-  command.custom(
-      "-r,--res", "W H", 2, 2,
-      [&](const std::vector<std::string>& w) {
-        width = read_integer("width of --res", w[0], 1, 16384);
-        height = read_integer("height of --res", w[1], 1, 8192);
+  command.phrase(
+      "-r,--res", "W H", continues_size,
+      [&](const std::string& text) {
+        std::tie(width, height) = read_size("--res", text, 1, {16384, 8192});
       },
       "size in pixels (default: as described)");
   command.flag("--json", voice.json, "prints what was written as JSON");
