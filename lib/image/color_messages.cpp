@@ -1,6 +1,6 @@
 #include "image/color_messages.h"
 
-#include <OpenColorIO/OpenColorIO.h>
+#include "image/color_config.h"
 
 #include <utility>
 
