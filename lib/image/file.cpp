@@ -55,6 +55,10 @@ Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo*
   return image;
 }
 
+void load_display_writer() {
+  image_file_functions();
+}
+
 bool image_decodes(const fs::path& path) {
   return image_file_functions().decodes(path);
 }
