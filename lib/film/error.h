@@ -8,6 +8,8 @@ struct Interval {
   double value = 0, low = 0, high = 0;
 };
 
+inline constexpr double default_error_floor = 0.1;  ///< at exposure 0
+
 /// Error of a picture: E = sqrt(mean over pixels and channels of variance / (value^2 + 0.01)), values at exposure 0.
 /// The interval holds, with 95 % confidence, what the picture's own pixels really are off by, root mean square and
 /// relative in the same way. Pixels with fewer than 2 samples do not count; `known` is false where there are no

@@ -44,6 +44,7 @@ Bias measure_bias(const FilmPair& cheap, const FilmPair& fine, const ColorManage
                   const DisplaySettings& display, float exposure_ev) {
   // The interval comes from whole blocks: neighbouring pixels are off alike.
   constexpr int block = 8;
+  const double floor = error_floor_at(double(exposure_ev));
   const int width = fine.a.width, height = fine.a.height;
   std::vector<double> blocks;
   double total = 0;
@@ -57,7 +58,7 @@ Bias measure_bias(const FilmPair& cheap, const FilmPair& fine, const ColorManage
           const Color off_a = pixel_mean(cheap.a.pixels[i]) - fine_a, off_b = pixel_mean(cheap.b.pixels[i]) - fine_b;
           for (int c = 0; c < 3; ++c) {
             const double value = (double(fine_a[c]) + double(fine_b[c])) / 2;
-            sum += double(off_a[c]) * double(off_b[c]) / (value * value + 0.01);
+            sum += double(off_a[c]) * double(off_b[c]) / (value * value + floor * floor);
           }
         }
       blocks.push_back(sum);
@@ -70,6 +71,11 @@ Bias measure_bias(const FilmPair& cheap, const FilmPair& fine, const ColorManage
   const auto root = [](double square) { return std::sqrt(std::max(square, 0.0)); };
   return {{root(mean), root(mean - half), root(mean + half)},
           agreed_difference(cheap, fine, colors, display, exposure_ev)};
+}
+
+bool same_bits(const Film& a, const Film& b) {
+  return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
+                    [](const FilmPixel& p, const FilmPixel& q) { return p.beauty == q.beauty; });
 }
 
 }  // namespace sateen
