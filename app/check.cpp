@@ -11,6 +11,7 @@
 #include "environment_text.h"
 #include "exit_code.h"
 #include "image/color.h"
+#include "light_flags.h"
 #include "look/json.h"
 #include "look/json_writer.h"
 #include "look/read.h"
@@ -122,10 +123,11 @@ void check_mesh(Finding& f, bool weld) {
     f.notices.push_back(touching + ": a crease shows there; weld them on export, or with --weld");
   }
   f.facts.push_back("cage of " + cage_text(cage));
-  if (!cage.creases.empty() || !cage.corners.empty() || !cage.holes.empty())
-    f.facts.push_back(fmt::format("{}, {}, {}", counted((long long)cage.creases.size(), "creased edge"),
-                                  counted((long long)cage.corners.size(), "sharp corner"),
-                                  counted((long long)cage.holes.size(), "face") + " cut out as holes"));
+  if (!cage.creases.empty()) f.facts.push_back(counted((long long)cage.creases.size(), "creased edge"));
+  if (!cage.corners.empty()) f.facts.push_back(counted((long long)cage.corners.size(), "sharp corner"));
+  if (!cage.holes.empty())
+    f.facts.push_back(counted((long long)cage.holes.size(), "face") +
+                      (cage.holes.size() == 1 ? " cut out as a hole" : " cut out as holes"));
   settle_placement(cage);
   const Mesh mesh = subdivide(cage, 1);
   const Vec3d size = Vec3d(mesh.bounds_max - mesh.bounds_min) * mesh.placement.unit;
@@ -143,29 +145,32 @@ void check_mesh(Finding& f, bool weld) {
   }
 }
 
-void check_map(Finding& f) {
+void check_map(Finding& f, const std::string& layer) {
   const ColorManager colors;
   std::string space;
-  const Environment map = read_environment(f.path, colors, {}, &space);
+  EnvironmentFileOptions options;
+  options.layer = layer;
+  const Environment map = read_environment(f.path, colors, options, &space);
   const EnvironmentReport report = inspect_environment(map);
   f.facts.push_back(fmt::format("{} x {}, {}", report.width, report.height, space));
   f.facts.push_back(fmt::format("{:.1f} stops, largest over mean luminance {:.4g}, metered exposure {:+.2f} EV",
                                 report.stops, report.largest_over_mean, report.metered_ev));
+  for (const std::string& note : report.notes) f.facts.push_back(note);
   f.notices = colors.warnings();
-  for (const std::string& notice : environment_notices(map)) f.notices.push_back(notice);
+  for (const std::string& notice : report.notices) f.notices.push_back(notice);
   const std::string extension = lower_extension(f.path);
   if (extension == ".png" || extension == ".jpg" || extension == ".jpeg")
     f.notices.push_back("a format without high dynamic range: lights are cut at white; use EXR or HDR");
 }
 
-Finding examine(const std::string& name, bool weld) {
+Finding examine(const std::string& name, bool weld, const std::string& layer) {
   Finding f;
   f.path = name;
   try {
     f.kind = kind_of(name);
     if (f.kind == "look") check_look(f);
     if (f.kind == "mesh") check_mesh(f, weld);
-    if (f.kind == "map") check_map(f);
+    if (f.kind == "map") check_map(f, layer);
     if (f.kind == "map description") {
       const MapDescription d = read_map_description(name);
       f.facts.push_back(fmt::format("{} x {}, {} lights", d.width, d.height, d.lights.size()));
@@ -180,12 +185,15 @@ Finding examine(const std::string& name, bool weld) {
 
 int run_check(const std::vector<std::string>& words) {
   std::vector<std::string> names;
+  std::string layer;
   Command command(
       "check", "Says what looks, meshes and HDR maps hold, what is wrong with them or was repaired, and what to do.",
       "FILE... [--json]");
   command.arguments("FILE", names, 1, 10000, "looks, meshes, maps and map descriptions in any mixture; names too");
   bool weld = false;
   command.flag("--weld", weld, "joins borders of meshes that coincide, as sateen render --weld does");
+  add_layer_flag(command, layer);
+  add_image_limit(command);
   command.flag("--json", voice.json, "the same as JSON");
   command.example("sateen check my_look.json dress.obj studio.hdr", "three files of three kinds");
   if (!command.parse(words)) return done;
@@ -193,7 +201,7 @@ int run_check(const std::vector<std::string>& words) {
   JsonWriter w;
   w.open_object().key("files").open_list();
   for (const std::string& name : names) {
-    const Finding f = examine(name, weld);
+    const Finding f = examine(name, weld, layer);
     code = std::max(code, f.code);
     w.open_object().member("path", f.path).member("kind", f.kind).member("usable", f.error.empty());
     w.key("facts").open_list();

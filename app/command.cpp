@@ -6,8 +6,6 @@
 #include <CLI/Formatter.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 
 #include "base/nearest_name.h"
@@ -46,14 +44,18 @@ std::string wrapped(const std::string& text, size_t indent, size_t width) {
   flush();
   return out;
 }
-
-std::string range_text(double low, double high) {
-  constexpr double beyond = 1e15;
-  if (low <= -beyond && high >= beyond) return "a number";
-  if (high >= beyond) return fmt::format("{} or more", low);
-  return fmt::format("a number from {} to {}", low, high);
-}
 }  // namespace
+
+struct Phrase {
+  std::string names;
+  std::function<bool(const std::string&)> joins;
+};
+
+// Whether the word is that flag, or begins --flag=value.
+bool is_flag(const std::string& word, const std::string& names) {
+  const std::string name = word.substr(0, word.find('='));
+  return name == long_name(names) || (names[1] != '-' && name == names.substr(0, 2));
+}
 
 struct Command::State {
   std::string name, summary, usage, current_group = "Flags";
@@ -61,6 +63,7 @@ struct Command::State {
   std::vector<Flag> flags;
   std::vector<std::pair<std::string, std::string>> examples;
   std::vector<std::string> long_names, words;
+  std::vector<Phrase> phrases;
   std::string argument, argument_help;
   std::vector<std::string>* arguments = nullptr;
   int fewest_arguments = 0, most_arguments = 0;
@@ -76,8 +79,40 @@ struct Command::State {
     faults.insert(faults.end(), error.diagnostics.begin(), error.diagnostics.end());
   }
   std::string usage_line() const { return fmt::format("usage: sateen {} {}", name, usage); }
+  std::vector<std::string> settled(const std::vector<std::string>& typed);
   void collect_leftovers();
 };
+
+// The words as the parser wants them: -look means --look, and the words of a phrase become one.
+std::vector<std::string> Command::State::settled(const std::vector<std::string>& typed) {
+  const auto is_known = [&](const std::string& flag) {
+    return std::find(long_names.begin(), long_names.end(), flag) != long_names.end();
+  };
+  std::vector<std::string> out;
+  for (size_t i = 0; i < typed.size(); ++i) {
+    std::string word = typed[i];
+    if (word == "--") {
+      out.insert(out.end(), typed.begin() + std::ptrdiff_t(i), typed.end());
+      break;
+    }
+    if (word.size() > 2 && word[0] == '-' && word[1] != '-') {
+      const std::string doubled = "-" + word, flag = doubled.substr(0, doubled.find('='));
+      if (is_known(flag)) word = doubled;
+    }
+    // The parser would take the next word instead.
+    if (word.ends_with('=') && is_known(word.substr(0, word.size() - 1))) {
+      fault(InputError(word.substr(0, word.size() - 1) + " is empty"));
+      continue;
+    }
+    out.push_back(word);
+    for (const Phrase& phrase : phrases) {
+      if (!is_flag(word, phrase.names)) continue;
+      if (word.find('=') == std::string::npos && i + 1 < typed.size()) out.push_back(typed[++i]);
+      while (i + 1 < typed.size() && phrase.joins(typed[i + 1])) out.back() += " " + typed[++i];
+    }
+  }
+  return out;
+}
 
 Command::Command(std::string name, std::string summary, std::string usage) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -202,6 +237,25 @@ void Command::number(const std::string& names, const std::string& value, float& 
       help);
 }
 
+void Command::share(const std::string& names, const std::string& value, double& to, double low, double high,
+                    const std::string& help) {
+  custom(
+      names, value, 1, 1,
+      [&to, names, low, high](const std::vector<std::string>& words) {
+        to = read_share(long_name(names), words.back(), low, high);
+      },
+      help);
+}
+
+void Command::phrase(const std::string& names, const std::string& value,
+                     std::function<bool(const std::string&)> joins, std::function<void(const std::string&)> read,
+                     const std::string& help) {
+  state_->phrases.push_back({names, std::move(joins)});
+  custom(
+      names, value, 1, 1, [read = std::move(read)](const std::vector<std::string>& words) { read(words.back()); },
+      help);
+}
+
 void Command::arguments(const std::string& value, std::vector<std::string>& to, int fewest, int most,
                         const std::string& help) {
   State& s = *state_;
@@ -253,7 +307,8 @@ bool Command::parse(const std::vector<std::string>& words) {
   State& s = *state_;
   s.words = words;
   try {
-    s.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    const std::vector<std::string> settled = s.settled(words);
+    s.app.parse(std::vector<std::string>(settled.rbegin(), settled.rend()));
     if (!s.help_asked) s.collect_leftovers();
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what(), flag = text.substr(0, text.find(':'));
@@ -299,24 +354,6 @@ std::string Command::help() const {
   for (const auto& [command, meaning] : s.examples)
     text += fmt::format("  {}\n      {}\n", command, wrapped(meaning, 6, width));
   return text;
-}
-
-int read_integer(const std::string& what, const std::string& text, long long low, long long high) {
-  long long value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size() || value < low || value > high)
-    throw InputError(
-        fmt::format("{} is {}, expected a whole number from {} to {}", what, shown_name(text), low, high));
-  return int(value);
-}
-
-double read_number(const std::string& what, const std::string& text, double low, double high) {
-  double value = 0;
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+');
-  const auto [end, code] = std::from_chars(begin, text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value < low || value > high)
-    throw InputError(fmt::format("{} is {}, expected {}", what, shown_name(text), range_text(low, high)));
-  return value;
 }
 
 }  // namespace sateen::app

@@ -39,6 +39,13 @@ class Command {
               const std::string& help);
   void number(const std::string& names, const std::string& value, float& to, double low, double high,
               const std::string& help);
+  /// A share: 0.02 or 2%.
+  void share(const std::string& names, const std::string& value, double& to, double low, double high,
+             const std::string& help);
+  /// One value that people also type as several words, "640 x 360" or "2 min": the words behind the first that
+  /// `joins` are joined to it with a blank.
+  void phrase(const std::string& names, const std::string& value, std::function<bool(const std::string&)> joins,
+              std::function<void(const std::string&)> read, const std::string& help);
   /// Anything else: `read` gets between `fewest` and `most` words and throws InputError on what it does not like.
   void custom(const std::string& names, const std::string& value, int fewest, int most,
               std::function<void(const std::vector<std::string>&)> read, const std::string& help);
@@ -59,5 +66,7 @@ class Command {
 /// The whole of `text` as a number of that kind; InputError names `what` and the range.
 int read_integer(const std::string& what, const std::string& text, long long low, long long high);
 double read_number(const std::string& what, const std::string& text, double low, double high);
+/// The same where 2% means 0.02.
+double read_share(const std::string& what, const std::string& text, double low, double high);
 
 }  // namespace sateen::app

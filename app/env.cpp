@@ -2,17 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "command.h"
 #include "commands.h"
 #include "console.h"
 #include "environment_text.h"
 #include "exit_code.h"
+#include "light_flags.h"
 #include "look/json_writer.h"
 #include "outputs.h"
 #include "render/picture.h"
 #include "scene/environment_file.h"
 #include "scene/environment_make.h"
+#include "typed_values.h"
 
 namespace sateen::app {
 
@@ -25,11 +28,10 @@ int env_make(const std::vector<std::string>& words) {
                   "DESCRIPTION.json -o MAP.exr [-r W H]");
   command.arguments("DESCRIPTION.json", names, 1, 1, "lights as JSON; those of the shipped maps are in envmaps/");
   command.text("-o,--output", "FILE.exr", output, "where to write it");
-  command.custom(
-      "-r,--res", "W H", 2, 2,
-      [&](const std::vector<std::string>& w) {
-        width = read_integer("width of --res", w[0], 1, 16384);
-        height = read_integer("height of --res", w[1], 1, 8192);
+  command.phrase(
+      "-r,--res", "W H", continues_size,
+      [&](const std::string& text) {
+        std::tie(width, height) = read_size("--res", text, 1, {16384, 8192});
       },
       "size in pixels (default: as described)");
   command.flag("--json", voice.json, "prints what was written as JSON");
@@ -65,12 +67,17 @@ int env_inspect(const std::vector<std::string>& words) {
   command.number("--env-rotate", "DEG", options.rotation_deg, -36000, 36000, "turns the light to the right");
   command.number("--env-exposure", "EV", options.exposure_ev, -100, 100, "brightens the light by stops");
   command.text("--env-space", "NAME", options.color_space, "colour space of the map (default: as the file says)");
+  add_layer_flag(command, options.layer);
+  command.integer("--map-size", "N", options.width, 0, 65536,
+                  "shrinks a wider map to N texels across while it is read");
+  add_image_limit(command);
   command.text("--ocio", "FILE", ocio, "colour config, or built-in (default: $OCIO, else built-in)");
   command.text("--working", "NAME", working, "space of the numbers (default: the config's scene_linear role)");
   command.flag("--json", voice.json, "the same as JSON");
   command.example("sateen env inspect studio_softboxes",
                   "azimuth 0 is the camera's side, 90 the right of the picture");
   if (!command.parse(words)) return done;
+  options.limits = image_limits();
   const ColorManager colors(ocio, working);
   for (const std::string& warning : colors.warnings()) print_warning(warning);
   JsonWriter w;

@@ -9,7 +9,11 @@ std::string environment_text(const std::string& path, const std::string& space, 
   text += fmt::format("  luminance {:.4g} to {:.4g}, mean {:.4g}; largest over mean {:.4g}; {:.1f} stops\n",
                       r.smallest, r.largest, r.mean, r.largest_over_mean, r.stops);
   text += fmt::format("  metered exposure {:+.2f} EV\n", r.metered_ev);
-  for (const std::string& repair : repair_texts(r.repairs)) text += "  " + repair + "\n";
+  for (const std::string& note : r.notes) text += "  " + note + "\n";
+  if (r.repairs.wide.count > 0)
+    text += fmt::format("  {} pixels negative in the file are colours of the working space: kept\n",
+                        r.repairs.wide.count);
+  for (const std::string& notice : r.notices) text += "  note: " + notice + "\n";
   for (const LightRegion& region : r.regions)
     text +=
         fmt::format("  light at azimuth {:.0f}, elevation {:.0f}: {:.1f} % of the energy, {:.3g} sr, peak {:.4g}\n",
@@ -35,7 +39,12 @@ void write_environment(JsonWriter& w, const std::string& path, const std::string
   add("infinite", r.repairs.infinite);
   add("negative", r.repairs.negative);
   add("out_of_gamut", r.repairs.out_of_gamut);
+  add("wide", r.repairs.wide);
   add("spike", r.repairs.spike);
+  w.close().key("notes").open_list();
+  for (const std::string& note : r.notes) w.value(note);
+  w.close().key("notices").open_list();
+  for (const std::string& notice : r.notices) w.value(notice);
   w.close().key("lights").open_list();
   for (const LightRegion& region : r.regions)
     w.open_object()

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <tuple>
 
 #include "base/nearest_name.h"
 #include "console.h"
+#include "light_flags.h"
 #include "look/json.h"
 #include "mesh/shapes.h"
 #include "render/quality.h"
+#include "typed_values.h"
 
 namespace sateen::app {
 
@@ -38,6 +41,8 @@ void add_scene(Command& c, PictureFlags& f) {
   c.number("--env-rotate", "DEG", s.environment_rotation_deg, -36000, 36000, "turns the light to the right");
   c.number("--env-exposure", "EV", s.environment_ev, -100, 100, "brightens the light by stops");
   c.text("--env-space", "NAME", s.environment_space, "colour space of the map (default: as the file says)");
+  add_layer_flag(c, s.environment_layer);
+  add_image_limit(c);
   c.custom(
       "--backdrop", "none|environment|blurred[:DEG]|COLOUR", 1, 1,
       [&f](const auto& w) { read_backdrop(w.back(), f.scene, f.display.ground); },
@@ -50,14 +55,10 @@ void add_scene(Command& c, PictureFlags& f) {
 void add_camera(Command& c, PictureFlags& f) {
   CameraSettings& k = f.scene.camera;
   c.group("Camera");
-  c.custom(
-      "-r,--res", "W H", 1, 2,
-      [&f](const std::vector<std::string>& w) {
-        const std::vector<std::string> sides = w.size() == 2 ? w : split(w[0], 'x');
-        if (sides.size() != 2)
-          throw InputError(fmt::format("--res is {}, expected two numbers: a width and a height", shown_name(w[0])));
-        f.scene.width = read_integer("width of --res", sides[0], 1, 32768);
-        f.scene.height = read_integer("height of --res", sides[1], 1, 32768);
+  c.phrase(
+      "-r,--res", "W H", continues_size,
+      [&f](const std::string& text) {
+        std::tie(f.scene.width, f.scene.height) = read_size("--res", text, 1, {32768, 32768});
       },
       fmt::format("size in pixels (default: {} {})", f.scene.width, f.scene.height));
   c.number("--azimuth", "DEG", k.azimuth_deg, -36000, 36000, "walks to the right around the object");
@@ -85,14 +86,15 @@ void add_quality(Command& c, PictureFlags& f) {
       "-s,--spp", "N", stop.spp, 1, 1 << 30,
       fmt::format("samples a pixel, with --adaptive their mean (default: {}, adaptive, when no other rule is given)",
                   default_samples));
-  c.number("--error", "E", stop.error, 1e-6, 100,
-           "relative error of the picture, such as 0.02; its upper bound counts");
+  c.share("--error", "E", stop.error, 1e-6, 100,
+          "relative error of the picture, such as 0.02 or 2%; its upper bound counts");
   c.text("--quality", "NAME", f.quality,
          "draft, preview or final: --error 0.18, 0.075 or 0.018, and the effects that such an error calls for; "
          "sateen cost finds what suits your scene");
-  c.custom(
-      "--time", "T", 1, 1, [&stop](const auto& w) { stop.seconds = read_duration("--time", w.back()); },
-      "wall clock for rendering: 30, 30s, 2m, 1h30m");
+  c.phrase(
+      "--time", "T", continues_duration,
+      [&stop](const std::string& text) { stop.seconds = read_duration("--time", text); },
+      "wall clock for rendering: 30, 30s, 2m, 1h30m, 2 min");
   c.flag("--adaptive", f.adaptive, "samples go where the error is (default but with --spp alone)");
   c.integer("--seed", "N", f.seed, 0, 0x7fffffff, "another seed is another noise (default: 1)");
   c.integer("-t,--threads", "N", f.render.threads, 0, 4096, "0: all that this process may use (default)");
@@ -235,26 +237,6 @@ void add_approximation_flags(Command& command, Approximations& to) {
   for (const Approximation& each : approximation_list())
     command.custom(
         each.flag, each.value, 1, 1, [&each, &to](const auto& w) { each.read(w.back(), to); }, each.help);
-}
-
-double read_duration(const std::string& what, const std::string& text) {
-  constexpr double longest = 1e7;
-  double total = 0;
-  const char *at = text.data(), *const end = at + text.size();
-  bool good = at != end;
-  while (good && at != end) {
-    double value = 0;
-    const auto [next, code] = std::from_chars(at, end, value, std::chars_format::fixed);
-    good = code == std::errc() && value >= 0;
-    at = next;
-    if (!good) break;
-    const char unit = at == end ? 's' : *at++;
-    good = unit == 's' || unit == 'm' || unit == 'h';
-    total += value * (unit == 'h' ? 3600 : unit == 'm' ? 60 : 1);
-  }
-  if (!good || !(total > 0) || total > longest)
-    throw InputError(fmt::format("{} is {}, expected a time such as 30, 30s, 2m or 1h30m", what, shown_name(text)));
-  return total;
 }
 
 Color read_hex_color(const std::string& what, const std::string& text) {

@@ -47,9 +47,6 @@ void settle_picture_flags(const Command& command, PictureFlags& flags, int sampl
 /// Layers that `--aov` names. "all" and "none" too.
 std::vector<std::string> read_layers(const std::string& list);
 
-/// "30", "30s", "2m", "1h", "1h30m" in seconds.
-double read_duration(const std::string& what, const std::string& text);
-
 /// "#rrggbb" or "#rgb" as code values in [0, 1].
 Color read_hex_color(const std::string& what, const std::string& text);
 

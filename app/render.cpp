@@ -16,6 +16,7 @@
 #include "render/checkpoint.h"
 #include "run.h"
 #include "signals.h"
+#include "typed_values.h"
 
 namespace sateen::app {
 
@@ -45,9 +46,9 @@ void add_going_on(Command& c, RenderFlags& f) {
   c.group("Going on");
   c.text("--checkpoint", "FILE", f.checkpoint,
          "keeps all sums there, every five minutes and at the end (a signal: beside the first picture without it)");
-  c.custom(
-      "--checkpoint-every", "T", 1, 1,
-      [&f](const auto& w) { f.checkpoint_every = read_duration("--checkpoint-every", w.back()); },
+  c.phrase(
+      "--checkpoint-every", "T", continues_duration,
+      [&f](const std::string& text) { f.checkpoint_every = read_duration("--checkpoint-every", text); },
       "how often the checkpoint is written anew (default: 5m)");
   c.text("--resume", "FILE", f.resume,
          "goes on from a checkpoint of the same picture: the same bits as a render that never stopped");

@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
+#include "image/color_messages.h"
 #include "look/json.h"
 #include "signals.h"
 
@@ -107,6 +108,7 @@ int run_named(const std::vector<Subcommand>& table, const std::string& prefix,
 int run(int argc, char** argv) {
   install_signals();
   flush_denormals();
+  hear_color_messages([](const std::string& message) { print_warning("colour config: " + message); });
   int code = done;
   try {
     code = dispatch({argv + (argc > 0), argv + argc});

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <tuple>
 
 #include "command.h"
 #include "commands.h"
@@ -14,6 +15,7 @@
 #include "scene/environment_file.h"
 #include "signals.h"
 #include "study/study_report.h"
+#include "typed_values.h"
 #include "work_progress.h"
 
 namespace sateen::app {
@@ -52,19 +54,19 @@ void describe(Command& c, StudyFlags& f) {
   c.custom(
       "--envs", "NAME,NAME...", 1, 1, [&s](const auto& w) { s.lights = split_list("--envs", w.back()); },
       fmt::format("lights; white is a constant map (default: {})", fmt::join(study_lights(), ",")));
-  c.custom(
-      "-r,--res", "W H", 2, 2,
-      [&s](const std::vector<std::string>& w) {
-        s.scene.width = read_integer("width of --res", w[0], 16, 2048);
-        s.scene.height = read_integer("height of --res", w[1], 16, 2048);
+  c.phrase(
+      "-r,--res", "W H", continues_size,
+      [&s](const std::string& text) {
+        std::tie(s.scene.width, s.scene.height) = read_size("--res", text, 16, {2048, 2048});
       },
       fmt::format("size of the measured renders (default: {} {})", s.scene.width, s.scene.height));
   c.group("How much of it");
   c.integer("--seeds", "N", s.seeds, 2, 100, fmt::format("repetitions, for the intervals (default: {})", s.seeds));
   c.integer("-s,--spp", "N", s.samples, 4, 4096,
             "samples a pixel of mis-compensated, whose time is the equal time (default: as --time allows, 8 to 64)");
-  c.custom(
-      "--time", "T", 1, 1, [&s](const auto& w) { s.cpu_seconds = read_duration("--time", w.back()); },
+  c.phrase(
+      "--time", "T", continues_duration,
+      [&s](const std::string& text) { s.cpu_seconds = read_duration("--time", text); },
       "CPU time that the whole may take, about: 10m, 2h (default: 1h)");
   c.flag("--quick", f.quick, "a minute: satin alone, three lights, smaller renders");
   c.flag("--pictures", s.pictures, "pictures to compare (default)");

@@ -43,8 +43,8 @@ void describe(Command& c, TurntableFlags& f) {
   c.integer("-n,--count", "N", f.count, 1, 100000, "frames of the whole orbit (default: 36)");
   c.number("--degrees", "DEG", f.degrees, -36000, 36000, "of the whole orbit (default: 360)");
   c.text("--frames", "LIST", f.frames, "only these: 1-100, 1-100x2, 1..10, 1,5,9 (default: 1 to N)");
-  c.number("--motion-blur", "SHARE", f.motion_blur, 0, 1,
-           "of the step between frames that the shutter is open: 0.5 is a shutter of 180 degrees (default: 0)");
+  c.share("--motion-blur", "SHARE", f.motion_blur, 0, 1,
+          "of the step between frames that the shutter is open: 0.5 is a shutter of 180 degrees (default: 0)");
   c.flag("--redo", f.redo, "renders frames anew that are finished already");
   c.text("--sheet", "FILE", f.sheet, "a sheet of all these frames, small");
   c.flag("--labels", f.labels, "frame and angle under each picture of the sheet (default)");

@@ -9,6 +9,7 @@
 #include "base/file_identity.h"
 #include "image/oiio/functions.h"
 #include "image/plain_exr.h"
+#include "image/radiance.h"
 
 namespace sateen {
 
@@ -44,15 +45,33 @@ const ImageFileFunctions& image_file_functions() {
   return *loaded;
 }
 
+namespace {
+
+/// A Radiance picture as any other: three channels, top row first.
+Image read_radiance(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
+  const std::unique_ptr<LightFile> file = open_radiance(path, limits);
+  check_image_size(path, "data window", file->info.width, file->info.height, 3, limits);
+  if (file->info.xyz)
+    refuse_picture(path, "holds CIE XYZ pixels, expected red, green and blue", "convert it to 32-bit_rle_rgbe");
+  Image image(file->info.width, file->info.height, 3);
+  file->read_rows(0, image.height, image.pixels.data());
+  if (!info) return image;
+  *info = {image.width, image.height, 3, {"R", "G", "B"}, file->info.format, file->info.pixel_type, {}, {}};
+  info->chromaticities = file->info.chromaticities;
+  return image;
+}
+
+}  // namespace
+
 ImageFileInfo read_image_info(const fs::path& path) {
   return image_file_functions().read_info(path);
 }
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
-  std::optional<Image> plain = read_plain_exr(path, limits, info);
-  Image image = plain ? std::move(*plain) : image_file_functions().read_pixels(path, limits, info);
   note_file_read(path);
-  return image;
+  if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
+  if (is_radiance(path)) return read_radiance(path, limits, info);
+  return image_file_functions().read_pixels(path, limits, info);
 }
 
 bool image_decodes(const fs::path& path) {

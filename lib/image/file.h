@@ -10,6 +10,7 @@
 
 #include "image/color.h"
 #include "image/image.h"
+#include "image/limits.h"
 
 namespace sateen {
 
@@ -26,18 +27,14 @@ struct ImageFileInfo {
       false;  ///< the colours of the pixels are multiplied by it (EXR, TIFF with associated alpha)
 };
 
-struct ImageLimits {
-  int side = 32768;                     ///< pixels
-  long long decoded_bytes = 1ll << 30;  ///< as float, checked in 64 bit before allocation
-};
-
 ImageFileInfo read_image_info(const std::filesystem::path& path);
 
 /// All channels as float. Only regular files within `limits`; InputError says what was found and expected.
 /// Deep, tiled, mip-mapped and multi-part files: the first flat part's full resolution; data windows are placed
 /// in their display window (black outside). Colours beside an alpha are as the file has them; an orientation tag is
 /// obeyed (see apply_orientation).
-Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {}, ImageFileInfo* info = nullptr);
+Image read_image(const std::filesystem::path& path, const ImageLimits& limits = image_limits(),
+                 ImageFileInfo* info = nullptr);
 
 /// The picture as it is to be shown, from the one that is stored. `orientation`: 1 to 8 as TIFF and EXIF count them;
 /// any other is taken as 1, upright. 5 to 8 swap width and height.

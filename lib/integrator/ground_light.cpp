@@ -21,12 +21,12 @@ struct Choices {
 };
 
 void choose(const Scene& scene, std::span<const GroundPoint> points, size_t k, const Vec3& direction,
-            const Environment::Texel& texel, bool with_map, Choices& all) {
+            const MapTexel& texel, bool with_map, Choices& all) {
   const GroundPoint& point = points[k];
   const float cosine = dot(direction, point.normal);
   if (!(cosine > 0)) return;
-  const float p = cosine / pi, both = p + (with_map ? texel.pdf_compensated : 0);
-  const Color light = texel.radiance * (p / both);
+  const float p = cosine / pi, both = p + (with_map ? texel.density->pdf_compensated : 0);
+  const Color light = *texel.radiance * (p / both);
   if (!(max_component(light) > 0)) return;
   // A cyclorama may shade itself.
   if (const Ground* solid = solid_ground(scene); solid && meet_ground(*solid, point.position, direction, far_away))
@@ -53,7 +53,7 @@ void light_on_ground(const Scene& scene, std::span<const GroundPoint> points, co
     std::array<EnvironmentPick, batch_size> picks;
     pick_environment(map, EnvironmentDensity::compensated, {u.data(), points.size()}, picks.data());
     for (size_t k = 0; k < points.size(); ++k)
-      choose(scene, points, k, picks[k].direction, *picks[k].texel, with_map, all);
+      choose(scene, points, k, picks[k].direction, picks[k].texel, with_map, all);
   }
   const Batch2 u = draw2(samples, Dimension::uniform);
   for (size_t k = 0; k < points.size(); ++k) {

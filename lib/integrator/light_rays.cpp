@@ -22,7 +22,7 @@ void pick_each(const Environment& environment, EnvironmentDensity density, const
 struct FabricPick {
   std::optional<Vec3> wi;
   Vec3 world;
-  const Environment::Texel* texel = nullptr;
+  MapTexel texel;
 };
 using FabricPicks = std::array<FabricPick, batch_size>;
 template <class View, class Frame>
@@ -48,7 +48,7 @@ void sample_each(const Environment& environment, FabricSampler sampler, const Se
     pick.wi = sample(view_of(k), {choice[k], thread[k], direction[k]});
     if (!pick.wi) continue;
     pick.world = frame_of(k).to_world(*pick.wi);
-    pick.texel = &environment_texel(environment, pick.world);
+    pick.texel = environment_texel(environment, pick.world);
     prefetch_texel(pick.texel);
   }
 }
@@ -83,7 +83,7 @@ struct Batch {
     for_each_point([&](size_t k) {
       if (!picks[k].wi) return;
       const float density = pdf(views[k], *picks[k].wi);
-      out.add(*picks[k].wi, picks[k].world, picks[k].texel->radiance, density > 0 ? 1 / density : 0);
+      out.add(*picks[k].wi, picks[k].world, *picks[k].texel.radiance, density > 0 ? 1 / density : 0);
     });
   }
 
@@ -93,7 +93,7 @@ struct Batch {
     for_each_point([&](size_t k) {
       if (!picks[k].texel) return;
       if (const Vec3 wi = points[k].frame.to_local(picks[k].direction); wi.z > 0)
-        out.add(wi, picks[k].direction, picks[k].texel->radiance, 1 / picks[k].texel->pdf_radiance);
+        out.add(wi, picks[k].direction, *picks[k].texel.radiance, 1 / picks[k].texel.density->pdf_radiance);
     });
   }
 
@@ -112,15 +112,15 @@ struct Batch {
     FabricPicks drawn;
     sample_fabric(sampler, drawn);
     for_each_point([&](size_t k) {
-      const auto weight = [&](const Vec3& wi, const Environment::Texel& texel) {
+      const auto weight = [&](const Vec3& wi, const MapTexel& texel) {
         const float both = pdf(views[k], wi) + texel_pdf(texel, density);
         return both > 0 ? 1 / both : 0;
       };
       if (picks[k].texel)
         if (const Vec3 wi = points[k].frame.to_local(picks[k].direction); wi.z > 0)
-          out.add(wi, picks[k].direction, picks[k].texel->radiance, weight(wi, *picks[k].texel));
+          out.add(wi, picks[k].direction, *picks[k].texel.radiance, weight(wi, picks[k].texel));
       if (drawn[k].wi)
-        out.add(*drawn[k].wi, drawn[k].world, drawn[k].texel->radiance, weight(*drawn[k].wi, *drawn[k].texel));
+        out.add(*drawn[k].wi, drawn[k].world, *drawn[k].texel.radiance, weight(*drawn[k].wi, drawn[k].texel));
     });
   }
 };

@@ -13,7 +13,7 @@ constexpr size_t few = 8;            // candidates whose shadows are all traced
 struct Candidates {
   size_t count = 0;
   std::array<Vec3, 2 * most_candidates> wi, world;
-  std::array<const Environment::Texel*, 2 * most_candidates> texel;
+  std::array<MapTexel, 2 * most_candidates> texel;
 };
 
 void propose_lights(const Environment& environment, const ClothPoint& point, Sequence sequence, std::uint32_t first,
@@ -61,8 +61,9 @@ void propose_candidates(const Scene& scene, const ClothPoint& point, const Table
   table_pdfs(table, {c.wi.data(), c.count}, density.data());
   const size_t before = out.rays.size();
   for (size_t i = 0; i < c.count; ++i) {
-    const float both = float(by_table) * density[i] + (by_map > 0 ? float(by_map) * c.texel[i]->pdf_compensated : 0);
-    if (both > 0) out.add(c.wi[i], c.world[i], c.texel[i]->radiance, 1 / both, density[i]);
+    const float both =
+        float(by_table) * density[i] + (by_map > 0 ? float(by_map) * c.texel[i].density->pdf_compensated : 0);
+    if (both > 0) out.add(c.wi[i], c.world[i], *c.texel[i].radiance, 1 / both, density[i]);
   }
   const std::span<LightRay> proposed = std::span(out.rays).subspan(before);
   if (proposed.size() <= few) return;

@@ -234,6 +234,8 @@ JsonDocument parse_json(std::string text, std::string file) {
   if (text.size() > json_most_bytes)
     refuse(
         {diagnostic_at(document, {}, fmt::format("is {} bytes, expected at most {}", text.size(), json_most_bytes))});
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    refuse({diagnostic_at(document, {}, "is UTF-16 text, expected UTF-8", "save the file as UTF-8")});
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   document.text = std::move(text);
   document.line_starts.push_back(0);

@@ -67,7 +67,7 @@ class WifReader {
     if (!lifts_.any()) text_.fault(fmt::format("no pick of {} lifts a shaft", lifts_name_));
     text_.finish();
     const Range ends = range("warp", threading_, "ends", "are on a shaft", "are on no shaft");
-    const Range picks = range("weft", lifts_, "picks", "lift a shaft", "lift none");
+    const Range picks = range("weft", lifts_, "picks", "lift a shaft", "lift nothing");
     text_.finish();
     tell_colors();
     std::vector<WifNumbers> columns, rows;

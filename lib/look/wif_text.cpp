@@ -183,7 +183,11 @@ void WifText::fault(std::string message, std::string help) {
 }
 
 void WifText::finish() const {
-  if (!faults.empty()) throw InputError(InputError::Kind::wrong, faults);
+  if (faults.empty()) return;
+  std::vector<Diagnostic> by_line = faults;
+  std::stable_sort(by_line.begin(), by_line.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; });
+  throw InputError(InputError::Kind::wrong, std::move(by_line));
 }
 
 }  // namespace sateen

@@ -10,6 +10,7 @@
 #include "mesh/obj_groups.h"
 #include "mesh/obj_tags.h"
 #include "mesh/obj_text.h"
+#include "mesh/wanted_placement.h"
 
 namespace sateen {
 
@@ -30,7 +31,7 @@ struct Count {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& name) : text_(text, name) { mesh_.name = name; }
+  Reader(std::string_view text, const std::string& name) : whole_(text), text_(text, name) { mesh_.name = name; }
   ControlMesh read();
 
  private:
@@ -42,10 +43,12 @@ class Reader {
   bool read_index(std::string_view word, std::string_view what, size_t count, bool is_uv, int& index);
   void keep_face(int line);
   void cut_faces();
+  void move_to_origin();
   void check_forward_indices();
   void drop_bad_uvs();
   void warn(const Count& count, const char* thing, const char* one, const char* many);
 
+  std::string_view whole_;
   Text text_;
   ControlMesh mesh_;
   obj::Tags tags_;
@@ -216,7 +219,19 @@ void Reader::cut_faces() {
       if (any_uv_) mesh_.uv_indices.push_back(c.uv);
     }
   };
+  // Twenty polygons of a thousand corners, or a hundred thousand of ten: a second or two.
+  constexpr double most_effort = 2e7;
+  double effort = 0;
+  // A vertex that one face alone has is a sharp corner; in several pieces of that face it would be a round one.
+  constexpr float sharpest = 10;
+  std::vector<int> only_face(mesh_.positions.size(), -1);  // -2: several
   size_t at = 0;
+  for (size_t i = 0; i < sizes.size(); ++i)
+    for (const size_t end = at + size_t(sizes[i]); at < end; ++at) {
+      int& only = only_face[size_t(positions[at])];
+      only = only == -1 || only == int(i) ? int(i) : -2;
+    }
+  at = 0;
   std::vector<PolygonCorner> face;
   auto tangled = tangled_.begin();
   for (size_t i = 0; i < sizes.size(); ++i) {
@@ -227,12 +242,31 @@ void Reader::cut_faces() {
       add(face);
       continue;
     }
-    const std::vector<std::vector<PolygonCorner>> pieces = cut_polygon(std::move(face), mesh_.positions);
+    for (const PolygonCorner& c : face)
+      if (only_face[size_t(c.vertex)] == int(i)) mesh_.corners.push_back({c.vertex, sharpest});
+    effort += double(face.size()) * double(face.size());
+    std::vector<std::vector<PolygonCorner>> pieces;
+    if (effort <= most_effort) pieces = cut_polygon(std::move(face), mesh_.positions);
     for (const std::vector<PolygonCorner>& piece : pieces) add(piece);
     (pieces.empty() ? dropped_ : cut_).add(tangled->line);
     ++tangled;
   }
   first_of_face_.push_back(int(mesh_.face_sizes.size()));
+}
+
+/// Far from the origin floats round away what the file says: there positions are read anew, in double.
+void Reader::move_to_origin() {
+  const Vec3d origin = wanted_placement(mesh_).origin;
+  if (origin == Vec3d(0)) return;
+  mesh_.placement.origin = origin;
+  Text text(whole_, mesh_.name);
+  size_t vertex = 0;
+  while (vertex < mesh_.positions.size() && text.next_line()) {
+    if (text.next_word() != "v") continue;
+    Vec3d p(0);
+    for (int k = 0; k < 3; ++k) obj::to_double(text.next_word(), p[k]);
+    mesh_.positions[vertex++] = Vec3(p - origin);
+  }
 }
 
 void Reader::check_forward_indices() {
@@ -294,25 +328,26 @@ ControlMesh Reader::read() {
     if (text_.errors().empty()) {
       if (any_uv_) mesh_.uv_indices.resize(mesh_.position_indices.size(), -1);
       const int file_faces = int(mesh_.face_sizes.size());
+      move_to_origin();
       cut_faces();
       tags_.apply(text_, first_of_face_, file_faces, mesh_);
     }
   }
   if (!text_.errors().empty()) throw InputError(InputError::Kind::wrong, std::move(text_.errors()));
   if (mesh_.face_sizes.empty())
-    throw InputError(
-        fmt::format("{}: {}", mesh_.name,
-                    seen_face ? "no face is left after dropping those that meet a vertex twice and have no area"
-                              : "holds no face, expected at least one"),
-        seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
+    throw InputError(fmt::format("{}: {}", mesh_.name,
+                                 seen_face ? "no face is left after dropping those that meet a vertex twice"
+                                           : "holds no face, expected at least one"),
+                     seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
   drop_bad_uvs();
   if (!any_uv_) mesh_.uvs.clear();
   warn(repeated_, "face", "repeats a corner: the repetition was dropped",
        "repeat a corner: the repetition was dropped");
   warn(cut_, "face", "meets a vertex twice, as around a hole: it was cut into simple ones",
        "meet a vertex twice, as around a hole: they were cut into simple ones");
-  warn(dropped_, "face", "meets a vertex twice and crosses itself or has no area: it was dropped",
-       "meet a vertex twice and cross themselves or have no area: they were dropped");
+  warn(dropped_, "face",
+       "meets a vertex twice and crosses itself, has no area or is too large to cut: it was dropped",
+       "meet a vertex twice and cross themselves, have no area or are too large to cut: they were dropped");
   warn(mixed_uv_, "face", "has UVs at some corners only: its UVs were dropped",
        "have UVs at some corners only: their UVs were dropped");
   warn(bad_uv_, "texture coordinate", "is not finite or reaches 1e15: the faces that use it lost their UVs",

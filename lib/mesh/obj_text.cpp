@@ -112,6 +112,12 @@ Number to_float(std::string_view word, float& value) {
   return std::isfinite(value) ? Number::good : Number::not_finite;
 }
 
+void to_double(std::string_view word, double& value) {
+  const char *first = word.data(), *last = first + word.size();
+  if (first < last && *first == '+') ++first;
+  std::from_chars(first, last, value);
+}
+
 bool to_integer(std::string_view word, long long& value) {
   const char *first = word.data(), *last = first + word.size();
   if (first < last && *first == '+') ++first;

@@ -47,6 +47,8 @@ enum class Number { good, not_a_number, not_finite, malformed };
 
 /// A decimal number, the whole of `word`. Values too small for a float become 0; too large ones are not_finite.
 Number to_float(std::string_view word, float& value);
+/// The same for what to_float took for good.
+void to_double(std::string_view word, double& value);
 /// A decimal integer, the whole of `word`.
 bool to_integer(std::string_view word, long long& value);
 

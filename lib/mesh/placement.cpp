@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mesh/control_mesh.h"
+#include "mesh/wanted_placement.h"
 
 namespace sateen {
 
@@ -13,30 +14,45 @@ constexpr double far_from_origin = 64;                        // sizes: what flo
 
 struct Box {
   Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  Vec3d middle() const { return (low + high) * 0.5; }
 };
-}  // namespace
 
-void settle_placement(ControlMesh& cage) {
-  if (cage.position_indices.empty()) return;
-  std::vector<bool> used(cage.positions.size(), false);
+/// Of the vertices that faces use.
+Box box_of(const ControlMesh& cage) {
   Box box;
   for (const int i : cage.position_indices) {
-    used[size_t(i)] = true;
     const Vec3d p(cage.positions[size_t(i)]);
     for (int k = 0; k < 3; ++k) {
       box.low[k] = std::min(box.low[k], p[k]);
       box.high[k] = std::max(box.high[k], p[k]);
     }
   }
-  const Vec3d middle = (box.low + box.high) * 0.5, extent = box.high - box.low;
-  for (size_t i = 0; i < used.size(); ++i)
-    if (!used[i]) cage.positions[i] = Vec3(middle);
-  const double size = std::max({extent.x, extent.y, extent.z});
-  if (!(size > 0)) return;
+  return box;
+}
+
+Placement placement_in(const Box& box) {
   Placement placement;
-  if (size < least_size || size > largest_size) placement.unit = std::exp2(std::floor(std::log2(size)));
+  const Vec3d extent = box.high - box.low, middle = box.middle();
+  const double size = std::max({extent.x, extent.y, extent.z});
+  if (size > 0 && (size < least_size || size > largest_size)) placement.unit = std::exp2(std::floor(std::log2(size)));
   if (std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}) > far_from_origin * size)
     placement.origin = Vec3d(Vec3(middle));
+  return placement;
+}
+}  // namespace
+
+Placement wanted_placement(const ControlMesh& cage) {
+  return cage.position_indices.empty() ? Placement{} : placement_in(box_of(cage));
+}
+
+void settle_placement(ControlMesh& cage) {
+  if (cage.position_indices.empty()) return;
+  const Box box = box_of(cage);
+  std::vector<bool> used(cage.positions.size(), false);
+  for (const int i : cage.position_indices) used[size_t(i)] = true;
+  for (size_t i = 0; i < used.size(); ++i)
+    if (!used[i]) cage.positions[i] = Vec3(box.middle());
+  const Placement placement = placement_in(box);
   if (placement.is_identity()) return;
   // In double, so that what lies far out loses nothing before it is near.
   for (Vec3& p : cage.positions) p = Vec3((Vec3d(p) - placement.origin) / placement.unit);

@@ -16,11 +16,12 @@ inline constexpr int finest_level = 6;
 /// Vertices are split, with bitwise equal positions, at UV seams, where UVs turn mirrored, at infinitely sharp
 /// and at non-manifold edges. Elsewhere derivatives that differ from face to face (linear UVs) are averaged.
 /// A vertex whose UVs are missing or degenerate gets as warp the object's X axis (Z where the normal is within
-/// acos(0.9) of X) projected on the surface, one scene unit per UV unit, and counts in fallback_warps; corners
-/// without UVs read uv (0, 0). Holes are cut.
+/// acos(0.9) of X) projected on the surface, one unit of the held mesh per UV unit, and counts in fallback_warps;
+/// corners without UVs read uv (0, 0). Holes are cut.
 ///
-/// A cage that OpenSubdiv refuses is returned unrefined with a warning. InputError when `level` is out of range or
-/// the result would pass 2^31 quads; OperationError when memory runs out.
+/// What of the cage is no surface is cut first (mesh/manifold.h), with a warning that counts it. A cage that
+/// OpenSubdiv refuses is returned unrefined with a warning. InputError when its arrays do not fit together, `level`
+/// is out of range or the result would pass 2^31 quads; OperationError when memory runs out.
 Mesh subdivide(const ControlMesh& cage, int level, int threads = 0);
 
 /// Quads that subdivide() would make, holes included.

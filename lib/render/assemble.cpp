@@ -24,7 +24,6 @@
 #include "scene/compile_cloth.h"
 #include "scene/environment_file.h"
 #include "scene/environment_inspect.h"
-#include "scene/environment_size.h"
 #include "scene/near_weave.h"
 
 namespace sateen {
@@ -56,6 +55,8 @@ std::string hash_mesh(const ControlMesh& cage) {
     hash.add_bytes(&corner.vertex, sizeof corner.vertex);
     hash.add_bytes(&corner.sharpness, sizeof corner.sharpness);
   }
+  // Positions far from the origin are read as they lie around it.
+  if (!cage.placement.is_identity()) hash.add_bytes(&cage.placement.origin, sizeof cage.placement.origin);
   return hash.add(fmt::format("{} {} {}", int(cage.scheme), int(cage.boundary), int(cage.fvar_boundary))).hex();
 }
 
@@ -83,7 +84,7 @@ ControlMesh read_cage(const std::string& name) {
                    help, InputError::Kind::unreadable);
 }
 
-/// InputError for a mesh of which nothing can be seen; warnings for one that floats cannot hold well.
+/// InputError for a mesh of which nothing can be seen; a warning for one that may have been rounded.
 void check_extent(const std::string& name, const Mesh& mesh, std::vector<std::string>& warnings) {
   double area = 0;
   for (const auto& quad : mesh.quads) {
@@ -95,20 +96,15 @@ void check_extent(const std::string& name, const Mesh& mesh, std::vector<std::st
     throw InputError(
         fmt::format("{}: none of its {} faces has an area: nothing of it can be seen", name, mesh.quads.size()),
         "its corners lie in one point or on one line; export it anew");
-  const Vec3 size = mesh.bounds_max - mesh.bounds_min;
-  // As its author placed it: that is where its positions were rounded.
-  const Vec3d origin = mesh.placement.origin / mesh.placement.unit;
-  float farthest = 0;
-  for (int k = 0; k < 3; ++k)
-    farthest = std::max({farthest, float(std::abs(origin[k] + double(mesh.bounds_min[k]))),
-                         float(std::abs(origin[k] + double(mesh.bounds_max[k])))});
-  // Positions are floats of 24 bits: folds are smooth while the object spans some ten thousand of their steps.
-  constexpr float far_away = 1000;
-  if (farthest > far_away * size.length())
-    warnings.push_back(
-        fmt::format("{}: it lies {:.2g} times its own size from the origin, where positions have no more than {:.0f} "
-                    "steps across it; move it to the origin",
-                    name, farthest / size.length(), size.length() / (farthest * 0x1p-24f)));
+  const double size = double((mesh.bounds_max - mesh.bounds_min).length()) * mesh.placement.unit;
+  const double away = mesh.placement.origin.length();
+  // The file was read in double, but few programs write from more than floats of 24 bits.
+  constexpr double far_away = 1000;
+  if (away > far_away * size)
+    warnings.push_back(fmt::format(
+        "{}: it lies {:.2g} times its own size from the origin, where a program that counts in floats has no "
+        "more than {:.0f} steps across it; if its folds look stepped, export it at the origin",
+        name, away / size, size / (away * 0x1p-24)));
 }
 
 Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
@@ -175,7 +171,8 @@ void settle_weave(const SceneSettings& settings, bool sized_textures, Scene& sce
 
 std::string hash_environment(const Environment& environment) {
   Hash hash;
-  for (const Environment::Texel& texel : environment.texels) hash.add_bytes(&texel.radiance, sizeof texel.radiance);
+  for (int y = 0; y < environment.height; ++y)
+    for (int x = 0; x < environment.width; ++x) hash.add_bytes(&environment.radiance_at(x, y), sizeof(Color));
   return hash.add(fmt::format("{}x{}", environment.width, environment.height)).hex();
 }
 
@@ -201,10 +198,9 @@ Environment read_light(const SceneSettings& settings, const ColorManager& colors
   options.color_space = settings.environment_space;
   options.rotation_deg = settings.environment_rotation_deg;
   options.exposure_ev = settings.environment_ev;
-  Environment map = read_environment(settings.environment, colors, options);
-  const int width = settings.approximations.map_size;
-  if (width <= 0 || width >= map.width) return map;
-  return shrink_environment(map, width, int(std::lround(double(map.height) * width / map.width)));
+  options.layer = settings.environment_layer;
+  options.width = settings.approximations.map_size;
+  return read_environment(settings.environment, colors, options);
 }
 
 Scene assemble_scene(const SceneSettings& settings, const ColorManager& colors, SceneReport& report) {

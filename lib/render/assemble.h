@@ -29,6 +29,7 @@ struct SceneSettings {
   float uv_metres = 0;                      ///< cloth that one UV unit spans; 0: as the mesh says
   std::string environment = default_environment;
   std::string environment_space;  ///< colour space of the map; empty: as the file says
+  std::string environment_layer;  ///< of an OpenEXR map; empty: chosen (image/exr_layers.h)
   float environment_rotation_deg = 0;
   float environment_ev = 0;
   CameraSettings camera;

@@ -39,6 +39,7 @@ class Writer {
     value(std::uint64_t(text.size()));
     bytes(text.data(), text.size());
   }
+  void flag(bool v) { value(std::uint8_t(v)); }
   void array(const std::vector<std::string>& all) {
     value(std::uint64_t(all.size()));
     for (const std::string& each : all) value(each);
@@ -78,6 +79,12 @@ class Reader {
   void value(std::string& text) {
     text.resize(size_t(count(1)));
     bytes(text.data(), text.size());
+  }
+  void flag(bool& v) {
+    std::uint8_t byte = 0;
+    value(byte);
+    if (byte > 1) throw Damaged();
+    v = byte == 1;
   }
   void array(std::vector<std::string>& all) {
     all.resize(size_t(count(sizeof(std::uint64_t))));
@@ -125,8 +132,15 @@ void exchange(Stream& s, C& c) {
   s.value(c.course.barrier);
   s.array(c.course.targets);
   s.array(c.course.past);
-  s.value(c.course.promise);
-  s.value(c.course.promised_for);
+  s.flag(c.course.promise.made);
+  s.value(c.course.promise.made_at_seconds);
+  s.value(c.course.promise.error);
+  s.value(c.course.promise.samples);
+  s.value(c.course.promise.seconds);
+  s.value(c.course.promise.cpu_seconds);
+  s.value(c.course.promised_for.spp);
+  s.value(c.course.promised_for.error);
+  s.value(c.course.promised_for.seconds);
   s.value(c.course.seconds);
   s.value(c.course.cpu_seconds);
   s.value(c.course.rays.camera);

@@ -63,7 +63,7 @@ PlannedEffect plan_lens(PlanWork& work, const Scene& whole) {
   if (blur < visible_pixels && !seen_behind && !whole.ground)
     rule_out(work, planned,
              fmt::format("less than half of one; it is {:.3g} units large, whose size --metres-per-unit says",
-                       2 * extent_of(whole).radius * scene.mesh->placement.unit));
+                       2 * extent_of(whole).radius * whole.mesh->placement.unit));
   return planned;
 }
 

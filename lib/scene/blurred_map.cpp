@@ -41,7 +41,7 @@ Image average_environment(const Environment& e, int width) {
       for (int row = rows.first; row <= rows.last; ++row)
         for (int column = columns.first; column <= columns.last; ++column) {
           const double weight = rows.share(row) * columns.share(column) * environment_row_weight(row, e.height);
-          sum += Vec3d(e.texels[size_t(row) * size_t(e.width) + size_t(column)].radiance) * weight;
+          sum += Vec3d(e.radiance_at(column, row)) * weight;
           weights += weight;
         }
       for (int c = 0; c < 3; ++c) out.at(x, y)[c] = float(sum[c] / weights);

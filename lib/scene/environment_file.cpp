@@ -11,12 +11,20 @@
 #include "base/files.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
+#include "image/chromaticities.h"
+#include "image/light_file.h"
+#include "scene/environment_build.h"
+#include "scene/environment_repair.h"
+#include "scene/environment_rows.h"
 
 namespace sateen {
 
 namespace fs = std::filesystem;
 
 namespace {
+// Rows are converted so many pixels at a time: what that takes is small beside any map, and calls are few.
+constexpr int band_pixels = 1 << 20;
+
 constexpr const char* extensions[] = {".exr", ".hdr", ".tif", ".tiff", ".png", ".jpg"};
 
 bool is_file(const fs::path& path) {
@@ -45,41 +53,30 @@ void add_blender(std::vector<fs::path>& folders, const fs::path& root) {
   for (const fs::path& version : children(root)) add_folder(folders, version / "datafiles/studiolights/world");
 }
 
-// A channel order that reads as R, G, B whatever stands around it: "beauty.R" or a leading Z do not confuse it.
-void bring_colours_first(Image& image, const std::vector<std::string>& names) {
-  if (image.channels < 3 || int(names.size()) != image.channels) return;
-  int places[3];
-  const char* wanted[3] = {"R", "G", "B"};
-  for (int c = 0; c < 3; ++c) {
-    const auto found = std::find(names.begin(), names.end(), wanted[c]);
-    if (found == names.end()) return;
-    places[c] = int(found - names.begin());
+// XYZ says nothing of what it takes for white; D65 is what tools that write it mean, unless the file states another.
+void xyz_to_working(Image& map, const LightFileInfo& info, const ColorManager& colors) {
+  ColorManager::Chromaticities rgb = rec709_chromaticities;
+  if (info.chromaticities) std::copy_n(info.chromaticities->white, 2, rgb.white);
+  const Matrix3 m = inverse(rgb_to_xyz(rgb));
+  for (size_t i = 0; i < map.pixels.size(); i += 3) {
+    const double xyz[3] = {double(map.pixels[i]), double(map.pixels[i + 1]), double(map.pixels[i + 2])};
+    for (size_t c = 0; c < 3; ++c) map.pixels[i + c] = float(m[c][0] * xyz[0] + m[c][1] * xyz[1] + m[c][2] * xyz[2]);
   }
-  if (places[0] == 0 && places[1] == 1 && places[2] == 2) return;
-  for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i) {
-    float* p = image.pixels.data() + i * size_t(image.channels);
-    const float rgb[3] = {p[places[0]], p[places[1]], p[places[2]]};
-    std::copy_n(rgb, 3, p);
-  }
-}
-
-Image as_colour(Image image) {
-  if (image.channels == 3) return image;
-  Image colour(image.width, image.height, 3);
-  for (size_t i = 0; i < size_t(image.width) * size_t(image.height); ++i)
-    for (size_t c = 0; c < 3; ++c)
-      colour.pixels[3 * i + c] = image.pixels[i * size_t(image.channels) + (image.channels < 3 ? 0 : c)];
-  return colour;
+  colors.chromaticities_to_working(map, rgb);
 }
 
 // Converts in place and says what was used and why.
-std::string convert(Image& map, const fs::path& path, const ImageFileInfo& info, const ColorManager& colors,
+std::string convert(Image& map, const fs::path& path, const LightFileInfo& info, const ColorManager& colors,
                     const std::string& flag) {
   const auto by_name = [&](const std::string& space, const char* why) {
     colors.to_working(map, space);
     return fmt::format("{} ({})", space, why);
   };
   if (!flag.empty()) return by_name(flag, "as asked");
+  if (info.xyz) {
+    xyz_to_working(map, info, colors);
+    return info.chromaticities ? "CIE XYZ, white of the file's chromaticities" : "CIE XYZ, D65 as white";
+  }
   if (info.chromaticities) {
     colors.chromaticities_to_working(map, *info.chromaticities);
     return "linear, primaries and white of the file's chromaticities";
@@ -152,24 +149,48 @@ Environment read_environment(const std::string& path_or_name, const ColorManager
   // Lossy EXRs are decoded in floating point: whoever calls, denormals are flushed as everywhere.
   flush_denormals();
   const fs::path path = find_environment(path_or_name);
-  ImageFileInfo info;
-  Image map = read_image(path, options.limits, &info);
-  bring_colours_first(map, info.channel_names);
-  map = as_colour(std::move(map));
-  // Before the conversion, which would spread one bad channel over all three.
-  EnvironmentRepairs repairs = repair_radiance(map);
-  const std::string space = convert(map, path, info, colors, options.color_space);
-  if (used_space) *used_space = space;
+  const std::unique_ptr<LightFile> file = open_light_file(path, options.layer, options.limits);
+  const LightFileInfo& info = file->info;
+  int width = info.width, height = info.height;
+  if (options.width > 0 && options.width < width) {
+    height = std::clamp(int(std::lround(double(height) * options.width / width)), 1, height);
+    width = options.width;
+  }
+  check_image_size(path, "picture", width, height, 3, options.limits, " (--map-size N does while it is read)");
 
   EnvironmentOptions build;
   build.rotation = radians(options.rotation_deg);
-  build.exposure_ev = options.exposure_ev;
   build.name = path.stem().string();
   build.luminance = colors.luminance_weights();
-  Environment environment = build_environment(std::move(map), build);
-  repairs.out_of_gamut = environment.repairs.negative;
-  if (!repairs.infinite.count) repairs.infinite = environment.repairs.infinite;
-  environment.repairs = repairs;
+  Environment environment = begin_environment(width, height, build);
+  environment.notes = info.notes;
+  environment.doubts = info.doubts;
+  RadianceMender mender(info.width, info.height);
+  EnvironmentRows rows(info.width, info.height, environment);
+  EnvironmentRepairs::Kind held;
+  std::string space;
+  const float gain = std::exp2(options.exposure_ev);
+  const int band_rows = std::max(1, band_pixels / info.width);
+  std::vector<Color> row(size_t(info.width), Color(0));
+  do {
+    held = {};
+    for (int y = 0; y < info.height; y += band_rows) {
+      Image band(info.width, std::min(band_rows, info.height - y), 3);
+      file->read_rows(y, band.height, band.pixels.data());
+      mender.mend_in_file_space(band, y);
+      space = convert(band, path, info, colors, options.color_space);
+      mender.mend_in_working_space(band, y);
+      for (int k = 0; k < band.height; ++k) {
+        for (int x = 0; x < info.width; ++x) row[size_t(x)] = scaled_radiance(band.at(x, k), gain, x, y + k, held);
+        rows.add(y + k, row);
+      }
+    }
+    // What is infinite becomes the largest value, and that is known only now: such a map is read twice.
+  } while (mender.again());
+  if (used_space) *used_space = space;
+  finish_environment(environment);
+  environment.repairs = mender.repairs();
+  if (!environment.repairs.infinite.count) environment.repairs.infinite = held;
   return environment;
 }
 

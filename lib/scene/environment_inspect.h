@@ -23,7 +23,8 @@ struct EnvironmentReport {
   float stops = 0;  ///< log2 of the largest luminance over the one that 1 % of the lit texels stay below
   float metered_ev = 0;
   EnvironmentRepairs repairs;
-  std::vector<LightRegion> regions;  ///< up to 5, most energy first; see inspect_environment
+  std::vector<std::string> notes, notices;  ///< of the map's reading; environment_notices
+  std::vector<LightRegion> regions;         ///< up to 5, most energy first; see inspect_environment
 };
 
 /// Regions are connected texels (eight neighbours, across the seam) of more than 3 times the mean luminance; where
@@ -33,7 +34,8 @@ EnvironmentReport inspect_environment(const Environment& environment);
 /// What had to be mended, a sentence a kind, with the first place.
 std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs);
 
-/// Everything that makes a map doubtful as a light: repairs, black, not twice as wide as high.
+/// Everything that makes a map doubtful as a light: repairs, what its reading assumed, black, not twice as wide as
+/// high.
 std::vector<std::string> environment_notices(const Environment& environment);
 
 }  // namespace sateen

@@ -127,7 +127,7 @@ Color upward_irradiance(const Environment& e) {
     const double from = std::sin(pi_d * y / e.height), to = std::sin(std::min(pi_d * (y + 1) / e.height, pi_d / 2));
     const double weight = (to * to - from * from) / 2 * (2 * pi_d / e.width);
     for (int x = 0; x < e.width; ++x)
-      sum += Vec3d(e.texels[size_t(y) * size_t(e.width) + size_t(x)].radiance) * weight;
+      sum += Vec3d(e.radiance_at(x, y)) * weight;
   }
   return Color(Vec3(sum));
 }

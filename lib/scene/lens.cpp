@@ -22,9 +22,9 @@ Lens compile_lens(const LensSettings& settings, const Mesh& mesh, const RayTrace
   lens.blades = settings.blades;
   lens.focus = settings.focus ? *settings.focus / metres_per_unit : focus_distance(mesh, rays, camera);
   if (!(lens.focus > 0) || !std::isfinite(lens.focus))
-    throw InputError(
-        fmt::format("the focus is at {} units along the view, expected in front of the camera", lens.focus),
-        "give --focus a distance in metres");
+    throw InputError(fmt::format("the focus is at {} units along the view, expected in front of the camera",
+                                 double(lens.focus) * mesh.placement.unit),
+                     "give --focus a distance in metres");
   return lens;
 }
 

@@ -28,7 +28,7 @@ float metered_exposure_ev(const Environment& e) {
       const double longitude = 2 * pi_d * ((x + 0.5) / (double(e.width) * across) + e.rotation_turns);
       const double z = sine * std::cos(longitude);
       if (z <= 0) continue;
-      const Color& c = e.texels[size_t(y / down) * size_t(e.width) + size_t(x / across)].radiance;
+      const Color& c = e.radiance_at(x / across, y / down);
       double luminance = 0;
       for (int i = 0; i < 3; ++i) luminance += double(c[i]) * double(e.luminance[i]);
       gathered += luminance * (1 + z) / 2 * solid_angle;

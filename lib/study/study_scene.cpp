@@ -58,7 +58,7 @@ double half_light_share(const Environment& environment) {
     const double solid_angle =
         environment_row_weight(y, environment.height) / 2 / environment.width;  // of the sphere
     for (int x = 0; x < environment.width; ++x) {
-      const Color& c = environment.texels[size_t(y) * size_t(environment.width) + size_t(x)].radiance;
+      const Color& c = environment.radiance_at(x, y);
       double luminance = 0;
       for (int i = 0; i < 3; ++i) luminance += double(c[i]) * double(environment.luminance[i]);
       parts.push_back({luminance, solid_angle});

@@ -52,8 +52,7 @@ struct Call {
   int number = 0;
 };
 
-/// The last call of one of `names` that names the temporary of `file`; of openat the one that makes it. With `pid` 0
-/// of that file's folder.
+/// The last call of one of `names` on a file whose name `on` finds; of openat the one that makes it.
 std::optional<Call> last_call(const std::vector<std::string>& log, const std::vector<std::string>& names,
                               const std::regex& on) {
   std::map<std::pair<std::string, std::string>, int> counts;
@@ -84,19 +83,44 @@ std::regex temporary_of(const std::string& file) {
   return std::regex("\\." + file.substr(0, point) + "\\.\\d+-\\d+\\" + file.substr(point) + "\\b");
 }
 
+using Files = std::map<std::string, std::string>;
+
+Files files_of(const Folder& folder) {
+  Files all;
+  for (const std::string& name : written) all[name] = read_text(folder / name);
+  return all;
+}
+
+/// What is there before, and what two runs without a fault make of it: their calls and their files.
+struct Clean {
+  Files before, meant;
+  std::vector<std::string> log;
+};
+
+const Clean& clean_run(const std::string& strace) {
+  static const Clean clean = [&] {
+    Clean made;
+    const Folder folder;
+    EXPECT_EQ(trace(strace, folder, job("4")).run.code, 0);
+    made.before = files_of(folder);
+    Traced traced = trace(strace, folder, job("8"));
+    EXPECT_EQ(traced.run.code, 0) << traced.run.err;
+    made.meant = files_of(folder);
+    made.log = std::move(traced.log);
+    return made;
+  }();
+  return clean;
+}
+
 /// What a fault of that kind in the call of that name on one of the files does to all four.
 void expect_nothing_lost(const std::string& strace, const std::string& file, const std::vector<std::string>& names,
                          const std::string& fault) {
   SCOPED_TRACE(file + " " + names[0] + " " + fault);
   const Folder folder;
-  std::map<std::string, std::string> before, meant;
-  const Traced clean = trace(strace, folder, job("8"));
-  ASSERT_EQ(clean.run.code, 0) << clean.run.err;
-  for (const std::string& name : written) meant[name] = read_text(folder / name);
-  ASSERT_EQ(trace(strace, folder, job("4")).run.code, 0);
-  for (const std::string& name : written) before[name] = read_text(folder / name);
+  const auto& [before, meant, log] = clean_run(strace);
+  for (const auto& [name, bytes] : before) write_text(folder / name, bytes);
   const std::regex on = temporary_of(file);
-  std::optional<Call> call = last_call(clean.log, names, on);
+  std::optional<Call> call = last_call(log, names, on);
   ASSERT_TRUE(call) << "no such call on this file";
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Traced faulty =
@@ -106,24 +130,24 @@ void expect_nothing_lost(const std::string& strace, const std::string& file, con
       confirmed |= line.find("(INJECTED)") != std::string::npos && std::regex_search(line, on);
     if (!confirmed) {
       // Something else called once more or once less; the log says where the call is now.
-      for (const std::string& name : written) write_text(folder / name, before[name]);
+      for (const std::string& name : written) write_text(folder / name, before.at(name));
       call = last_call(faulty.log, names, on);
       ASSERT_TRUE(call);
       continue;
     }
     const std::string now = read_text(folder / file);
     const bool timed = file == "a.checkpoint" || file == "a.json";  // times in them differ from run to run
-    const bool is_new = timed ? now != before[file] : now == meant[file];
+    const bool is_new = timed ? now != before.at(file) : now == meant.at(file);
     if (faulty.run.code == 0) {
       EXPECT_TRUE(is_new) << "exit 0 and not the file that was meant";
     } else {
       EXPECT_EQ(faulty.run.code, 1) << faulty.run.err;
-      EXPECT_TRUE(now == before[file]) << "the old file is lost";
+      EXPECT_TRUE(now == before.at(file)) << "the old file is lost";
       EXPECT_NE(faulty.run.err.find(file + ": not written"), std::string::npos) << faulty.run.err;
     }
     for (const char* other : {"a.exr", "a.png"}) {
       if (other == file) continue;
-      EXPECT_TRUE(read_text(folder / other) == meant[other]) << other << " was not written";
+      EXPECT_TRUE(read_text(folder / other) == meant.at(other)) << other << " was not written";
     }
     if (file == "a.checkpoint") {
       // Old or new, it can be gone on with.
@@ -132,7 +156,7 @@ void expect_nothing_lost(const std::string& strace, const std::string& file, con
                                        {folder.path});
       EXPECT_EQ(next.code, 0) << next.err;
     } else {
-      EXPECT_TRUE(read_text(folder / "a.checkpoint") != before["a.checkpoint"]);
+      EXPECT_TRUE(read_text(folder / "a.checkpoint") != before.at("a.checkpoint"));
     }
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.path))
       EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path() << " was left behind";

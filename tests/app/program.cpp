@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -102,7 +103,11 @@ Finished run_sateen(const std::vector<std::string>& words, const Start& start) {
     }
   }
   int status = 0;
-  waitpid(child, &status, 0);
+  rusage used{};
+  wait4(child, &status, 0, &used);
+  finished.cpu_seconds = double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                         1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+  finished.peak_mib = double(used.ru_maxrss) / 1024;
   finished.seconds_after_signal = std::chrono::duration<double>(std::chrono::steady_clock::now() - sent).count();
   finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return finished;

@@ -24,6 +24,8 @@ struct Finished {
   int code = -1;         ///< exit code; 128 + n where signal n killed it
   std::string out, err;  ///< everything it said
   double seconds_after_signal = 0;
+  double cpu_seconds = 0;  ///< of its threads, in the system too
+  double peak_mib = 0;     ///< largest resident size
 };
 
 /// How to start a program besides its words.

@@ -109,8 +109,11 @@ TEST(Usage, ACropOutsideThePictureIsRefused) {
 TEST(Usage, FlagsOfSeveralValuesSayHowManyTheyWant) {
   expect_refused(run_sateen({"render", "--crop", "1", "2", "3"}), 2,
                  "error: --crop wants 4 values: X0 Y0 X1 Y1\n" + render_usage);
-  expect_refused(run_sateen({"render", "--res", "96"}), 2,
-                 "error: --res is 96, expected two numbers: a width and a height\n" + render_usage);
+  expect_refused(
+      run_sateen({"render", "--res", "96"}), 2,
+      "error: --res is 96, expected two numbers: a width and a height\n  help: --res 640 360, --res 640x360 or "
+      "--res 640,360\n" +
+          render_usage);
 }
 
 TEST(Usage, AMisspeltShapeIsAnsweredWithTheNearestOne) {
@@ -175,6 +178,110 @@ TEST(Usage, AReaderThatGoesAwayIsNoError) {
   const Finished run = run_sateen({"look", "check"}, start);
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err, "");
+}
+
+namespace {
+/// Whether the words are understood: a window outside of the picture of 96 by 54 is then all that is wrong.
+void expect_understood(std::vector<std::string> words) {
+  words.insert(words.begin(), "render");
+  for (const char* word : {"--crop", "0", "0", "97", "54"}) words.push_back(word);
+  expect_refused(run_sateen(words), 2,
+                 "error: --crop ends at 97 54, expected at most 96 54, the size of the picture\n");
+}
+}  // namespace
+
+TEST(Usage, SizesAreUnderstoodInTheFormsThatPeopleType) {
+  for (const std::vector<std::string>& size : std::vector<std::vector<std::string>>{{"-r", "96", "54"},
+                                                                                    {"-r", "96x54"},
+                                                                                    {"-r", "96,54"},
+                                                                                    {"--res", "96", "x", "54"},
+                                                                                    {"--res=96X54"},
+                                                                                    {"-r96*54"},
+                                                                                    {"-res", "96, 54"},
+                                                                                    {"-r", "1", "2", "-r", "96x54"}})
+    expect_understood(size);
+}
+
+TEST(Usage, TimesAndSharesAreUnderstoodInTheFormsThatPeopleType) {
+  for (const char* time : {"90s", "1min", "1h30m", "2 min", "1.5 hours", "1h 30min"})
+    expect_understood({"-r", "96x54", "--time", time});
+  expect_understood({"-r", "96x54", "--time", "2", "min", "--error", "2%"});
+  expect_understood({"-r", "96x54", "--time=90", "sec", "-error", "2 %"});
+  expect_refused(
+      run_sateen({"render", "--time", "2", "--error", "2%%"}), 2,
+      "error: --error is 2%%, expected a number from 1e-06 to 100, or a percentage such as 2%\n" + render_usage);
+  expect_refused(run_sateen({"render", "--time", "1x"}), 2,
+                 "error: --time is 1x, expected a time such as 30, 30s, 2m or 1h30m\n" + render_usage);
+  EXPECT_NE(run_sateen({"render", "--spp", "5%"}).err.find("--spp is 5%, expected a whole number"),
+            std::string::npos);
+}
+
+TEST(Usage, ALongFlagWithOneDashIsUnderstood) {
+  const Finished run = run_sateen({"look", "resolve", "-set", "weft.coverage=25%", "linen_plain", "-json"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_TRUE(is_json(run.out));
+  EXPECT_NE(run.out.find("\"0.25\""), std::string::npos) << run.out;
+  EXPECT_NE(run_sateen({"render", "-look", "no_such_look"}).err.find("there is no look called no_such_look"),
+            std::string::npos);
+}
+
+TEST(Usage, AWrongPathNamesTheNearestFieldsFirst) {
+  const auto help = [](const std::string& path) {
+    const std::string text = run_sateen({"look", "resolve", "linen_plain", "--set", path + "=1"}).err;
+    const size_t at = text.find("help: ");
+    return at == std::string::npos ? text : text.substr(at + 6);
+  };
+  EXPECT_EQ(help("warp.gama_s"), "did you mean warp.gamma_s_deg?\n");
+  EXPECT_EQ(help("gamma_s"), "did you mean warp.gamma_s_deg or weft.gamma_s_deg?\n");
+  EXPECT_EQ(help("wrap.eta"), "did you mean warp.eta?\n");
+  EXPECT_EQ(help("draft"), "did you mean weave.draft?\n");
+  EXPECT_EQ(help("weft.colour"), "did you mean weft.color?\n");
+  EXPECT_NE(help("zzzzzzzz").find("sateen look schema --fields lists all"), std::string::npos) << help("zzzzzzzz");
+}
+
+TEST(Usage, EveryMissingFileEndsWithThree) {
+  const Folder folder;
+  write_text(folder / "texture.json", R"({"warp": {"k_d": {"texture": "no.png"}}})");
+  write_text(folder / "draft.json", R"({"weave": {"draft": "no.wif"}})");
+  write_text(folder / "parent.json", R"({"inherits": "./no.json"})");
+  write_text(folder / "back.json", R"({"back": "./no.json"})");
+  write_text(folder / "pattern.json", R"({"pattern": {"mask": 0.5, "look": "./no.json"}})");
+  const std::vector<std::vector<std::string>> all{{"render", "--look", "./no.json"},
+                                                  {"render", "--look", "no_such_look"},
+                                                  {"render", "--look", "./texture.json"},
+                                                  {"render", "--look", "./draft.json"},
+                                                  {"render", "--look", "./parent.json"},
+                                                  {"render", "--look", "./back.json"},
+                                                  {"render", "--look", "./pattern.json"},
+                                                  {"render", "--set", "back=./no.json"},
+                                                  {"render", "--set", "weave.draft=no.wif"},
+                                                  {"render", "--mesh", "no.obj"},
+                                                  {"render", "--mesh", "no_such_shape"},
+                                                  {"render", "--env", "no.exr"},
+                                                  {"render", "--env", "no_such_light"},
+                                                  {"render", "--ocio", "no.ocio"},
+                                                  {"render", "--resume", "no.checkpoint"},
+                                                  {"turntable", "--look", "./no.json"},
+                                                  {"plan", "--mesh", "no.obj"},
+                                                  {"cost", "--env", "no.exr"},
+                                                  {"study", "--looks", "./no.json"},
+                                                  {"study", "--envs", "no_such_light"},
+                                                  {"merge", "no.checkpoint", "nor.checkpoint", "-o", "a.exr"},
+                                                  {"look", "resolve", "./no.json"},
+                                                  {"look", "check", "./texture.json"},
+                                                  {"look", "diff", "linen_plain", "./no.json"},
+                                                  {"lobe", "./no.json"},
+                                                  {"lobe", "linen_plain", "--pairs", "no.json"},
+                                                  {"env", "inspect", "no.exr"},
+                                                  {"env", "make", "no.json", "-o", "a.exr"},
+                                                  {"check", "no.obj"},
+                                                  {"check", "./draft.json"}};
+  for (const auto& words : all) {
+    std::string line;
+    for (const std::string& word : words) line += word + " ";
+    const Finished run = run_sateen(words, folder.path);
+    EXPECT_EQ(run.code, 3) << line << "\n" << run.out << run.err;
+  }
 }
 
 }  // namespace sateen_test

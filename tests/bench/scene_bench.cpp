@@ -80,7 +80,7 @@ void environment() {
                                        [&] {
                                          float sum = 0;
                                          for (const Vec3& d : directions)
-                                           sum += environment_texel(map, d).pdf_compensated;
+                                           sum += environment_texel(map, d).density->pdf_compensated;
                                          sink = sum;
                                        }) /
                            4096;

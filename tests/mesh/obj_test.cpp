@@ -118,7 +118,7 @@ TEST(Obj, RefusesAFileWithoutFaces) {
   EXPECT_EQ(error_of(""), none);
   EXPECT_EQ(error_of(square), none);
   EXPECT_EQ(error_of(square + "f 1 1 2\n"),
-            "error: a.obj: no face is left after dropping those that meet a vertex twice and have no area");
+            "error: a.obj: no face is left after dropping those that meet a vertex twice");
 }
 
 TEST(Obj, ReportsAllErrorsAtOnceButNoMoreThanTwentyInFull) {
@@ -142,6 +142,18 @@ TEST(Obj, PlacesErrorsOnContinuedLinesWhereTheyStand) {
             "a.obj:7:3: error: vertex index is 99, expected 1 to 4\n    7 |   99\n      |   ^^");
 }
 
+TEST(Obj, PositionsFarFromTheOriginKeepWhatTheFileSays) {
+  // Floats of this size are 64 apart.
+  const ControlMesh m = parse_obj("v 1000000000 5 0\nv 1000000001.5 5 0\nv 1000000000 6.25 0\nf 1 2 3\n", "a.obj");
+  EXPECT_EQ(m.positions[1] - m.positions[0], Vec3(1.5f, 0, 0));
+  EXPECT_EQ(m.positions[2] - m.positions[0], Vec3(0, 1.25f, 0));
+  EXPECT_EQ(m.placement.origin + Vec3d(m.positions[0]), Vec3d(1e9, 5, 0));
+  // Near it they are as they were.
+  const ControlMesh near = parse_obj("v 20 5 0\nv 21.5 5 0\nv 20 6.25 0\nf 1 2 3\n", "a.obj");
+  EXPECT_TRUE(near.placement.is_identity());
+  EXPECT_EQ(near.positions[1], Vec3(21.5f, 5, 0));
+}
+
 TEST(Obj, RefusesALineAboveOneMebibyte) {
   std::string text = square + "f";
   for (int i = 0; i < 400000; ++i) text += " 1 2";
@@ -156,7 +168,8 @@ TEST(Obj, DropsRepeatedVerticesAndCountsThem) {
   ASSERT_EQ(m.warnings.size(), 2u);
   EXPECT_EQ(m.warnings[0], "a.obj:6: 1 face repeats a corner: the repetition was dropped");
   EXPECT_EQ(m.warnings[1],
-            "a.obj:7: 2 faces meet a vertex twice and cross themselves or have no area: they were dropped");
+            "a.obj:7: 2 faces meet a vertex twice and cross themselves, have no area or are too large to cut: they "
+            "were dropped");
 }
 
 TEST(Obj, TakesTheUvsOfAFaceWhoseUvsAreNotFinite) {

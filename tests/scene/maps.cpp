@@ -1,5 +1,10 @@
 #include "maps.h"
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -62,6 +67,29 @@ std::vector<NamedMap> torture_maps() {
   add("smallest floats", 16, 8, [](int, int) { return Color(1.2e-38f, 1.2e-38f, 2e-38f); });
   add("noise", 128, 64, noise);
   return maps;
+}
+
+void write_banded_exr(const std::filesystem::path& path, int width, int height) {
+  Imf::Header header(width, height);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::HALF));
+  Imf::OutputFile file(path.c_str(), header);
+  std::vector<Imath::half> row(size_t(3 * width));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool sun = std::hypot(float(x - width / 3), float(y - height / 4)) < float(width) / 700;
+      for (int c = 0; c < 3; ++c)
+        row[size_t(3 * x + c)] = Imath::half(
+            sun ? 20000.0f : 0.5f + 0.25f * std::sin(float(x * (c + 1)) * 0.01f) + float(y) / float(4 * height));
+    }
+    Imf::FrameBuffer frame;
+    const char* names[] = {"R", "G", "B"};
+    for (size_t c = 0; c < 3; ++c)
+      frame.insert(names[c],
+                   Imf::Slice(Imf::HALF, reinterpret_cast<char*>(row.data() + c), 3 * sizeof(Imath::half), 0));
+    file.setFrameBuffer(frame);
+    file.writePixels(1);
+  }
 }
 
 }  // namespace sateen_test

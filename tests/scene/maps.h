@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,5 +23,8 @@ inline sateen::Image make_map(int width, int height, const std::function<sateen:
 
 /// The torture list of hard-cases.md that fits in memory: every map an artist, a broken exporter or a test may bring.
 std::vector<NamedMap> torture_maps();
+
+/// An OpenEXR map of any size in half floats, written a few rows at a time: soft waves and a sun.
+void write_banded_exr(const std::filesystem::path& path, int width, int height);
 
 }  // namespace sateen_test

@@ -4,38 +4,12 @@
 #include <cmath>
 
 #include "render/render.h"
-#include "scene/environment_size.h"
 #include "study/bias.h"
 #include "study/study_scene.h"
 
 namespace sateen_test {
 
 using namespace sateen;
-
-namespace {
-Environment lit_map(int width, int height) {
-  Image map(width, height, 3);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) map.at(x, y)[c] = float(1 + (x * 7 + y * 3 + c) % 5);
-  return build_environment(std::move(map));
-}
-}  // namespace
-
-TEST(ShrinkEnvironment, KeepsTheMeanRadianceAndTheRotation) {
-  Environment map = lit_map(64, 32);
-  map.rotation = 1;
-  for (const int width : {32, 16, 8, 5}) {
-    const Environment small = shrink_environment(map, width, width / 2);
-    EXPECT_EQ(small.width, width);
-    EXPECT_EQ(small.height, width / 2);
-    EXPECT_FLOAT_EQ(small.rotation, 1);
-    // Sizes that do not divide weigh some rows a little more.
-    const float allowed = 64 % width == 0 ? 1e-4f : 0.05f;
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(small.mean_radiance[c] / map.mean_radiance[c], 1, allowed) << width;
-  }
-  EXPECT_EQ(shrink_environment(map, 999, 999).width, 64);
-}
 
 TEST(HalfLightShare, IsHalfForAConstantMapAndSmallForASun) {
   Image constant(32, 16, 3);

@@ -90,27 +90,11 @@ ImageFileInfo info_of(const OIIO::ImageInput& input) {
 }
 
 void check_limits(const OIIO::ImageSpec& spec, const fs::path& path, const ImageLimits& limits) {
-  const auto check = [&](long long width, long long height, const char* what) {
-    if (width < 1 || height < 1)
-      refuse(path, fmt::format("its {} is {} x {} pixels, expected at least 1 x 1", what, width, height));
-    if (width > limits.side || height > limits.side)
-      refuse(path,
-             fmt::format("its {} is {} x {} pixels, expected at most {} a side", what, width, height, limits.side),
-             "make it smaller, or raise the limit");
-    // Sides below 2^31 each and a channel count below 2^31 could pass 64 bits: divide instead.
-    const long long pixel = 4ll * std::max(spec.nchannels, 1);
-    if (width * height > limits.decoded_bytes / pixel)
-      refuse(
-          path,
-          fmt::format("its {} of {} x {} pixels with {} channels takes {:.1f} GiB decoded, expected at most {:.1f}",
-                      what, width, height, spec.nchannels, double(width) * double(height) * double(pixel) / 0x1p30,
-                      double(limits.decoded_bytes) / 0x1p30),
-          "make it smaller, or raise the limit");
-  };
   if (spec.nchannels < 1) refuse(path, "has no channels");
   if (spec.depth > 1) refuse(path, "is a volume, expected a flat picture");
-  check(spec.width, spec.height, "data window");
-  if (spec.full_width > 0 && spec.full_height > 0) check(spec.full_width, spec.full_height, "picture");
+  check_image_size(path, "data window", spec.width, spec.height, spec.nchannels, limits);
+  if (spec.full_width > 0 && spec.full_height > 0)
+    check_image_size(path, "picture", spec.full_width, spec.full_height, spec.nchannels, limits);
 }
 
 // Places the data window in the display window; outside it is black.

@@ -1,0 +1,24 @@
+#pragma once
+#include "scene/environment.h"
+
+namespace sateen {
+
+/// A map is built in three steps, so that it can come a row at a time: begun, its rows set, finished.
+Environment begin_environment(int width, int height, const EnvironmentOptions& options);
+
+/// Radiance as a map holds it: scaled by `gain`, held at 1e35 (counted as `held` with its place), subnormals 0.
+Color scaled_radiance(const float* rgb, float gain, int x, int y, EnvironmentRepairs::Kind& held);
+
+void set_radiance(Environment& environment, int x, int y, const Color& radiance);
+
+/// Mean, distributions and densities, once all radiance is set.
+void finish_environment(Environment& environment);
+
+/// Adds one pixel to a kind of repair.
+inline void count_repair(EnvironmentRepairs::Kind& kind, int x, int y) {
+  if (kind.count++ > 0) return;
+  kind.first_x = x;
+  kind.first_y = y;
+}
+
+}  // namespace sateen
