@@ -13,7 +13,7 @@ namespace {
 
 /// While samples are dealt out and the error is looked at: variances of all pixels, pooled ones, and what is sorted
 /// of them (film/error.cpp, render/allocation.cpp), as measured.
-constexpr std::int64_t looking_per_pixel = 40;
+constexpr std::int64_t looking_per_pixel = 90;
 
 std::int64_t writing_bytes(const PictureSize& size) {
   std::int64_t bytes = 0;
