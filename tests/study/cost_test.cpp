@@ -345,6 +345,32 @@ TEST(Cost, AnInterruptLeavesWhatIsFinished) {
   EXPECT_EQ(cost_text(cost).rfind("INTERRUPTED", 0), 0u);
 }
 
+// A list of map sizes changes the map of a scene that is assembled: what the stage took from the old one goes with
+// it.
+TEST(Cost, AMapOfAnotherSizeIsSeenByGroundAndBackdrop) {
+  SceneSettings settings;
+  settings.mesh = "swatch";
+  settings.environment = "low_sun";
+  settings.level = 0;
+  settings.width = 32;
+  settings.height = 18;
+  settings.stage.ground = GroundSettings();
+  settings.backdrop = Backdrop::blurred;
+  const ColorManager colors;
+  SceneReport report;
+  Scene rebuilt = assemble_scene(settings, colors, report);
+  const Color before = rebuilt.ground->open_sky;
+  settings.approximations.map_size = 16;
+  const Scene assembled = assemble_scene(settings, colors, report);
+  for (const Approximation& each : approximation_list())
+    if (each.name == "map size") each.rebuild(settings, colors, rebuilt);
+  EXPECT_EQ(rebuilt.environment.width, 16);
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(rebuilt.ground->open_sky[c], assembled.ground->open_sky[c]);
+  EXPECT_NE(rebuilt.ground->open_sky.x, before.x);
+  ASSERT_TRUE(rebuilt.blurred && assembled.blurred);
+  EXPECT_EQ(rebuilt.blurred->radiance.pixels, assembled.blurred->radiance.pixels);
+}
+
 TEST(Cost, TooFewSamplesAreRefused) {
   CostSettings settings;
   settings.most_samples = 4;
