@@ -125,7 +125,7 @@ void exchange(Stream& s, C& c) {
   s.value(c.film.height);
   s.value(c.film.first_sample);
   s.value(c.film.grain);
-  s.value(c.film.opaque);
+  s.flag(c.film.opaque);
   s.array(c.film.pixels);
   s.array(c.film.layers);
   s.value(c.course.samples);
