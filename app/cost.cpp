@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/parallel.h"
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
@@ -83,6 +84,9 @@ int run_cost(const std::vector<std::string>& words) {
   settings.exposure_ev = flags.exposure_ev;
   settings.seed = flags.render.seed;
   settings.threads = flags.render.threads;
+  settings.layers = !flags.layer_list.empty();
+  settings.albedo_layer = flags.render.albedo_layer;
+  settings.program_seconds = cpu_seconds();
   settings.most_samples = flags.render.stop.spp;
   settings.price_samples = std::clamp(flags.render.stop.spp / 4, 8, 64);
   WorkProgress progress(flags.progress != ProgressStyle::none);

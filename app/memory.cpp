@@ -72,6 +72,9 @@ void check_film_memory(const PictureFlags& f) {
 
 void check_picture_memory(const PictureFlags& f, bool with_layers, bool film_there) {
   const PictureSize size = size_of(f, with_layers);
+  // What will be needed at the end had better fail now, and counts.
+  for (const std::string& output : f.outputs)
+    if (!is_exr(output)) load_display_writer();
   const MemoryRoom room = memory_room();
   const std::int64_t bytes = picture_bytes(size) - (film_there ? film_bytes(size) : 0);
   const MemoryUse use = memory_use();

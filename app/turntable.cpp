@@ -94,17 +94,7 @@ std::vector<NamedFile> check_names(TurntableFlags& f, const std::vector<int>& fr
 Image read_small(const Frame& frame, const ColorManager& colors, int side) {
   for (const std::string& file : frame.files)
     if (!is_exr(file)) return shrink_image(read_image(file), side);
-  ImageFileInfo info;
-  const Image all = read_image(frame.files[0], {}, &info);
-  Image beauty(all.width, all.height, 4);
-  const char* names[4] = {"R", "G", "B", "A"};
-  for (size_t c = 0; c < 4; ++c) {
-    const auto found = std::find(info.channel_names.begin(), info.channel_names.end(), names[c]);
-    if (found == info.channel_names.end()) continue;
-    const size_t from = size_t(found - info.channel_names.begin());
-    for (size_t i = 0; i < beauty.pixels.size() / 4; ++i)
-      beauty.pixels[4 * i + c] = all.pixels[i * size_t(all.channels) + from];
-  }
+  const Image beauty = read_exr_beauty(frame.files[0]);
   return shrink_image(develop_display(beauty, colors, frame.job.display, frame.job.exposure_ev), side);
 }
 

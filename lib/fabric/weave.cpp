@@ -97,25 +97,29 @@ bool warp_on_top(const Weave& w, long long end, long long pick) {
 /// A float runs from the strip of one yarn that covers it to the next such strip.
 double float_share(const Weave& weave, const Strips& own, const Strips& crossing, long long yarn, long long at,
                    double place, double across) {
-  const int repeat = own.warp ? weave.picks : weave.ends;
-  const auto covered = [&](long long other) {
-    return own.warp ? !warp_on_top(weave, yarn, other) : warp_on_top(weave, other, yarn);
-  };
+  const int repeat = own.warp ? weave.picks : weave.ends, phase = wrapped(at, repeat);
+  const size_t family = own.warp ? 0 : 1, index = size_t(wrapped(yarn, own.warp ? weave.ends : weave.picks));
+  const std::uint16_t* const covers = weave.covered[family].data() + weave.covered_from[family][index];
+  const auto count =
+      static_cast<long long>(weave.covered_from[family][index + 1] - weave.covered_from[family][index]);
   // A yarn that nothing covers floats from repeat to repeat.
-  double from = double(at - wrapped(at, repeat)), to = from + repeat;
-  for (long long k = at; k > at - repeat - 1; --k)
-    if (covered(k)) {
-      if (const double end = crossing.strip(k, across).to; end <= place) {
-        from = end;
-        break;
-      }
+  double from = double(at - phase), to = from + repeat;
+  // The i-th crossing that covers the yarn, counted on over the repeats.
+  const auto cover = [&](long long i) {
+    const long long turn = i < 0 ? (i + 1) / count - 1 : i / count;
+    return at - phase + turn * repeat + covers[i - turn * count];
+  };
+  const long long behind = std::upper_bound(covers, covers + count, phase) - covers - 1;
+  for (long long i = behind; count > 0 && cover(i) >= at - repeat; --i)
+    if (const double end = crossing.strip(cover(i), across).to; end <= place) {
+      from = end;
+      break;
     }
-  for (long long k = at; k < at + repeat + 1; ++k)
-    if (covered(k)) {
-      if (const double begin = crossing.strip(k, across).from; begin >= place) {
-        to = begin;
-        break;
-      }
+  const long long ahead = std::lower_bound(covers, covers + count, phase) - covers;
+  for (long long i = ahead; count > 0 && cover(i) <= at + repeat; ++i)
+    if (const double begin = crossing.strip(cover(i), across).from; begin >= place) {
+      to = begin;
+      break;
     }
   return to > from ? std::clamp((place - from) / (to - from), 0.0, 1.0) : 0.5;
 }
@@ -149,6 +153,16 @@ Weave compile_weave(const Look& look) {
       up += weave.warp_up.back();
     }
   weave.up = double(up) / (double(draft.ends) * draft.picks);
+  for (size_t family = 0; family < 2; ++family) {
+    const int yarns = family == 0 ? weave.ends : weave.picks, across = family == 0 ? weave.picks : weave.ends;
+    weave.covered_from[family].push_back(0);
+    for (int yarn = 0; yarn < yarns; ++yarn) {
+      for (int i = 0; i < across; ++i)
+        if (family == 0 ? !warp_on_top(weave, yarn, i) : warp_on_top(weave, i, yarn))
+          weave.covered[family].push_back(std::uint16_t(i));
+      weave.covered_from[family].push_back(std::uint32_t(weave.covered[family].size()));
+    }
+  }
   weave.warp_spacing = 0.01 / double(look.weave.warp_per_cm);
   weave.weft_spacing = 0.01 / double(look.weave.weft_per_cm);
   weave.coverage = {double(look.warp.coverage), double(look.weft.coverage)};

@@ -25,6 +25,10 @@ struct YarnWidths {
 struct Weave {
   int ends = 0, picks = 0;                    ///< of the repeat; 0: no weave, no threads to be seen
   std::vector<std::uint8_t> warp_up;          ///< [pick * ends + end], both in the order of growing y and x
+  /// Where each warp end lies under a pick, and each pick under an end, growing; end or pick i has its places from
+  /// covered_from[family][i] to covered_from[family][i + 1]. A float's ends are then found without walking along it.
+  std::array<std::vector<std::uint16_t>, 2> covered;
+  std::array<std::vector<std::uint32_t>, 2> covered_from;
   double warp_spacing = 0, weft_spacing = 0;  ///< [metres]
   double up = 0;                              ///< share of the crossings with the warp on top
   std::array<double, 2> coverage{};           ///< a_j of warp and weft

@@ -70,7 +70,7 @@ PictureError picture_error(const Film& film, const std::vector<PixelError>& erro
         sum += e.weighted;
         squares += e.weighted * e.weighted;
         at_most += e.at_most;
-        covered += e.coverage;
+        covered += double(e.coverage);
         ++count;
       }
       const double scatter = count > 1 ? std::max(squares - sum * sum / count, 0.0) * count / (count - 1) : squares;
@@ -117,7 +117,7 @@ double deviation_of_share(const Film& film, const std::vector<PixelError>& error
   double all = 0, largest = 0;
   for (size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i].known) continue;
-    all += errors[i].coverage;
+    all += double(errors[i].coverage);
     largest = std::max(largest, std::sqrt(squares[i]));
   }
   if (!(all > 0) || !(largest > 0)) return 0;
@@ -127,7 +127,7 @@ double deviation_of_share(const Film& film, const std::vector<PixelError>& error
   for (size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i].known) continue;
     const double below = squares[i] > 0 ? -std::log2(std::sqrt(squares[i]) / largest) * steps : steps * octaves;
-    count[size_t(std::clamp(below, 0.0, double(steps * octaves)))] += errors[i].coverage;
+    count[size_t(std::clamp(below, 0.0, double(steps * octaves)))] += double(errors[i].coverage);
   }
   double low = 0, high = 10 * largest;
   for (int k = 0; k < 40; ++k) {

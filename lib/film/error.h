@@ -36,7 +36,7 @@ struct PixelError {
   double relative = 0;  ///< variance of its mean over value^2 + floor^2, mean over channels
   double weighted = 0;  ///< the same, times its coverage
   double at_most = 0;   ///< `weighted` if what is unsure of the value were no part of it
-  double coverage = 0;  ///< its weight: 0 where nothing is rendered
+  float coverage = 0;   ///< its weight: 0 where nothing is rendered
   bool known = false;   ///< it has two samples and more
 };
 

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <functional>
 
+#include "film/bands.h"
 #include "film/error.h"
 #include "film/neighbours.h"
 
@@ -40,27 +40,22 @@ Vec3d at_least_0(Vec3d v) {
   return v;
 }
 
-Surroundings look_around(const Film& film, double backing, int threads) {
+Surroundings look_around(const Film& film, double backing) {
   const size_t size = film.pixels.size();
   std::vector<double> present(size), covered(size), neighbours;
   std::vector<Vec3d> mean(size, Vec3d(0)), variance(size, Vec3d(0)), of_sample(size, Vec3d(0)), apart(size, Vec3d(0));
-  const auto each = [&](const std::function<void(size_t)>& body) {
-    parallel_for(film.height, threads, [&](int y) {
-      for (size_t i = size_t(y) * size_t(film.width), end = i + size_t(film.width); i < end; ++i) body(i);
-    });
-  };
-  each([&](size_t i) {
+  for (size_t i = 0; i < size; ++i) {
     const FilmPixel& pixel = film.pixels[i];
-    if (pixel.samples < 2) return;
+    if (pixel.samples < 2) continue;
     present[i] = 1;
     covered[i] = pixel_coverage(pixel);
     const FilmPixel over = laid_over(pixel, backing);
     mean[i] = Vec3d(pixel_mean(over));
     variance[i] = pixel_variance(over);
     of_sample[i] = variance[i] * double(over.samples);
-  });
+  }
   const auto around = [&](const auto& values, int radius, std::vector<double>* counts = nullptr) {
-    return mean_of_neighbours(values, present, film.width, film.height, radius, threads, counts);
+    return mean_of_neighbours(values, present, film.width, film.height, radius, counts);
   };
   Surroundings s;
   s.mean = around(mean, 1, &neighbours);
@@ -68,11 +63,11 @@ Surroundings look_around(const Film& film, double backing, int threads) {
   // Eight pixels of few samples may all have missed what is rare, and then would say that they are sure.
   s.mean_variance = around(variance, 2);
   s.sample_variance = around(of_sample, 2);
-  each([&](size_t i) {
+  for (size_t i = 0; i < size; ++i) {
     s.mean_variance[i] /= std::max(neighbours[i], 1.0);
     const Vec3d off = mean[i] - s.mean[i];
     apart[i] = off * off - variance[i] - s.mean_variance[i];
-  });
+  }
   s.spread = around(apart, 2);
   for (Vec3d& v : s.spread) v = at_least_0(v);
   return s;
@@ -83,7 +78,7 @@ PixelError error_of(const FilmPixel& pixel, const Surroundings& s, size_t i, dou
   PixelError e;
   if (pixel.samples < 2) return e;
   e.known = true;
-  e.coverage = pixel_coverage(pixel);
+  e.coverage = float(pixel_coverage(pixel));
   const Replicates r(laid_over(pixel, backing));
   const auto n = double(pixel.samples);
   const Vec3d prior = s.spread[i] + s.mean_variance[i];
@@ -124,11 +119,15 @@ PixelError error_of(const FilmPixel& pixel, const Surroundings& s, size_t i, dou
 }
 
 std::vector<PixelError> errors_over(const Film& film, const ErrorScale& scale, double backing) {
-  const Surroundings around = look_around(film, backing, scale.threads);
+  constexpr int margin = 4;  // rows that look_around() sees: two of two
   std::vector<PixelError> errors(film.pixels.size());
-  parallel_for(film.height, scale.threads, [&](int y) {
-    for (size_t i = size_t(y) * size_t(film.width), end = i + size_t(film.width); i < end; ++i)
-      errors[i] = error_of(film.pixels[i], around, i, backing, scale.floor);
+  const auto width = size_t(film.width);
+  for_each_band(film, margin, scale.threads, [&](const Film& part, int skip, int y0, int y1) {
+    const Surroundings around = look_around(part, backing);
+    for (size_t i = 0; i < size_t(y1 - y0) * width; ++i) {
+      const size_t there = i + size_t(skip) * width;
+      errors[i + size_t(y0) * width] = error_of(part.pixels[there], around, there, backing, scale.floor);
+    }
   });
   return errors;
 }

@@ -7,12 +7,14 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "image/built_in_config.h"
 #include "image/chromaticities.h"
 #include "image/color_config.h"
+#include "image/color_messages.h"
 
 namespace sateen {
 
@@ -250,6 +252,17 @@ void ColorManager::chromaticities_to_working(Image& image, const Chromaticities&
     for (int row = 0; row < 3; ++row) p[row] = float(m[row][0] * rgb[0] + m[row][1] * rgb[1] + m[row][2] * rgb[2]);
   }
   run(state_->convert({true, "aces2065-1"}, state_->working), image);
+}
+
+void hear_color_messages(std::function<void(const std::string& message)> hear) {
+  ocio::SetLoggingFunction([hear = std::move(hear)](const char* text) {
+    std::string message = text;
+    // "[OpenColorIO Warning]: Unknown key ..."
+    if (const size_t end = message.find("]: "); message.starts_with('[') && end != std::string::npos)
+      message.erase(0, end + 3);
+    while (message.ends_with('\n')) message.pop_back();
+    if (!message.empty()) hear(message);
+  });
 }
 
 }  // namespace sateen

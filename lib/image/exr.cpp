@@ -219,4 +219,29 @@ long long write_exr(const fs::path& path, int width, int height, const LayerRows
   return clamped;
 }
 
+Image read_exr_beauty(const fs::path& path) {
+  try {
+    Imf::InputFile file(path.c_str());
+    const Imath::Box2i window = file.header().dataWindow();
+    Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, 4);
+    constexpr size_t pixel = 4 * sizeof(float);
+    const size_t row = pixel * size_t(image.width);
+    const auto base = reinterpret_cast<std::uintptr_t>(image.pixels.data());
+    const std::uintptr_t origin =
+        base - std::uintptr_t(std::int64_t(window.min.y)) * row - std::uintptr_t(std::int64_t(window.min.x)) * pixel;
+    Imf::FrameBuffer frame;
+    const char* const names[4] = {"R", "G", "B", "A"};
+    for (size_t c = 0; c < 4; ++c)
+      frame.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(origin + c * sizeof(float)), pixel, row));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    return image;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("{}: its pixels cannot be read ({})", path.string(), error.what()), {},
+                     InputError::Kind::unreadable);
+  }
+}
+
 }  // namespace sateen

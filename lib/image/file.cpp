@@ -74,6 +74,10 @@ Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo*
   return image_file_functions().read_pixels(path, limits, info);
 }
 
+void load_display_writer() {
+  image_file_functions();
+}
+
 bool image_decodes(const fs::path& path) {
   return image_file_functions().decodes(path);
 }

@@ -67,6 +67,10 @@ using LayerRows = std::function<std::vector<ImageLayer>(int y0, int y1)>;
 long long write_exr(const std::filesystem::path& path, int width, int height, const LayerRows& rows,
                     const Attributes& attributes, const std::optional<ColorManager::Chromaticities>& chromaticities);
 
+/// R, G, B and A of an OpenEXR file, 0 where it has none, without the memory of its other layers. InputError where they
+/// cannot be read.
+Image read_exr_beauty(const std::filesystem::path& path);
+
 /// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.
 /// Dithered to 8 bit (png, tif) with a fixed blue-noise pattern so that smooth satin does not band. Verified like
 /// write_exr. Colours are written as they are, beside alpha and not multiplied by it, as PNG wants; JPEG drops alpha.
@@ -79,6 +83,10 @@ void write_display_image(const std::filesystem::path& path, const Image& image, 
 using DisplayRows = std::function<Image(int y0, int y1)>;
 void write_display_image(const std::filesystem::path& path, int width, int height, int channels,
                          const DisplayRows& rows, const Attributes& attributes = {}, int bits = 8, bool srgb = true);
+
+/// Loads what other pictures than EXRs are written with, if it is not loaded yet: it takes 110 MB, which are then
+/// known to be there. OperationError where it cannot be.
+void load_display_writer();
 
 /// Whether all pixels of a picture file can be decoded, whatever its size; never more than a band of them is held.
 bool image_decodes(const std::filesystem::path& path);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float flat_to = 1e-6f;   // of the size of the mesh
 constexpr float level_to = 1e-5f;  // of the size of a quad
-constexpr float most_twist = 0.01f;
+constexpr float most_twist = 0.03f;
 constexpr float surely = 0.01f;  // of the size of the mesh: far more than quads of a convex body are off their planes
 
 struct Plane {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "mesh/check_cage.h"
+#include "mesh/close_cracks.h"
 #include "mesh/face_points.h"
 #include "mesh/limit_surface.h"
 #include "mesh/manifold.h"
@@ -171,6 +172,7 @@ Mesh refine(const ControlMesh& cage, int level, int threads) {
   const std::optional<CutCage> cut = cut_into_manifolds(cage);
   if (!cut) return refine_manifold(cage, {}, level, threads);
   Mesh mesh = refine_manifold(cut->cage, cut->origin, level, threads);
+  close_cracks(mesh);
   mesh.warnings.insert(mesh.warnings.begin(), cut_warning(*cut));
   return mesh;
 }

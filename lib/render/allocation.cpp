@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "film/bands.h"
 #include "film/neighbours.h"
 
 namespace sateen {
@@ -21,31 +22,36 @@ double squared(double x) {
 /// For every pixel what the pixels around it say of E squared that one sample there is worth: mean variance of a
 /// sample over mean value squared, times mean coverage, over the backing that shows more of it.
 std::vector<double> noise_around(const Film& film, const ErrorScale& scale) {
-  const size_t size = film.pixels.size();
-  std::vector<double> present(size), coverage(size), noise(size);
-  for (size_t i = 0; i < size; ++i) {
-    present[i] = film.pixels[i].samples >= 2;
-    coverage[i] = pixel_coverage(film.pixels[i]);
-  }
-  const auto around = [&](const auto& values) {
-    return mean_of_neighbours(values, present, film.width, film.height, radius, scale.threads);
-  };
-  coverage = around(coverage);
-  for (const double backing : backings(film, scale)) {
-    std::vector<Vec3d> variance(size), value(size);
+  std::vector<double> noise(film.pixels.size());
+  for_each_band(film, radius, scale.threads, [&](const Film& part, int skip, int y0, int y1) {
+    const size_t size = part.pixels.size(), width = size_t(film.width);
+    std::vector<double> present(size), coverage(size);
     for (size_t i = 0; i < size; ++i) {
-      const FilmPixel over = laid_over(film.pixels[i], backing);
-      variance[i] = pixel_variance(over) * double(over.samples);
-      value[i] = Vec3d(pixel_mean(over));
+      present[i] = part.pixels[i].samples >= 2;
+      coverage[i] = pixel_coverage(part.pixels[i]);
     }
-    variance = around(variance);
-    value = around(value);
-    for (size_t i = 0; i < size; ++i) {
-      double sum = 0;
-      for (int c = 0; c < 3; ++c) sum += variance[i][c] / (squared(value[i][c]) + squared(scale.floor));
-      noise[i] = std::max(noise[i], sum / 3 * coverage[i]);
+    const auto around = [&](const auto& values) {
+      return mean_of_neighbours(values, present, part.width, part.height, radius);
+    };
+    coverage = around(coverage);
+    for (const double backing : backings(film, scale)) {
+      std::vector<Vec3d> variance(size), value(size);
+      for (size_t i = 0; i < size; ++i) {
+        const FilmPixel over = laid_over(part.pixels[i], backing);
+        variance[i] = pixel_variance(over) * double(over.samples);
+        value[i] = Vec3d(pixel_mean(over));
+      }
+      variance = around(variance);
+      value = around(value);
+      for (size_t i = 0; i < size_t(y1 - y0) * width; ++i) {
+        const size_t there = i + size_t(skip) * width;
+        double sum = 0;
+        for (int c = 0; c < 3; ++c) sum += variance[there][c] / (squared(value[there][c]) + squared(scale.floor));
+        double& most = noise[i + size_t(y0) * width];
+        most = std::max(most, sum / 3 * coverage[there]);
+      }
     }
-  }
+  });
   return noise;
 }
 

@@ -110,6 +110,9 @@ Approximation map_size() {
           },
           [](const SceneSettings& settings, const ColorManager& colors, Scene& scene) {
             scene.environment = read_light(settings, colors);
+            // The stage was compiled in the light of the old map: the ground's open sky, the blurred backdrop.
+            scene.blurred.reset();
+            set_stage(scene, settings.stage, settings.threads);
           }};
 }
 

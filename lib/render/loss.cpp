@@ -51,7 +51,8 @@ Interval picture_loss(std::span<const PixelLoss> pixels, double error_floor) {
   }
   const double half = normal_95 * std::sqrt(scatter) / weights;
   const auto root = [](double v) { return std::sqrt(std::max(v, 0.0)); };
-  return {root(mean), root(mean - half), root(mean + half)};
+  // What chance brought below 0 is not known any better for that.
+  return {root(mean), root(mean - half), root(std::max(mean, 0.0) + half)};
 }
 
 Interval light_share(std::span<const PixelLoss> pixels) {

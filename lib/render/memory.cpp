@@ -13,9 +13,7 @@ namespace {
 
 /// While samples are dealt out and the error is looked at: variances of all pixels, pooled ones, and what is sorted
 /// of them (film/error.cpp, render/allocation.cpp), as measured.
-constexpr std::int64_t looking_per_pixel = 40;
-/// The library that writes PNG, TIFF and JPEG, with all that it brings.
-constexpr std::int64_t display_library = 60 << 20;
+constexpr std::int64_t looking_per_pixel = 90;
 
 std::int64_t writing_bytes(const PictureSize& size) {
   std::int64_t bytes = 0;
@@ -27,7 +25,7 @@ std::int64_t writing_bytes(const PictureSize& size) {
     } else {
       // Beauty, cloth on the display, with its ground, and its codes twice.
       const std::int64_t row = 4 * size.width * std::int64_t(sizeof(float));
-      bytes += 4 * row * std::min<std::int64_t>(band_rows(row), size.height) + display_library;
+      bytes += 4 * row * std::min<std::int64_t>(band_rows(row), size.height);
     }
   }
   return bytes;

@@ -9,6 +9,13 @@
 
 namespace sateen {
 
+PixelGrid grid_of(const Camera& camera) {
+  PixelGrid grid;
+  grid.columns = std::min(grid.columns, camera.width);
+  grid.rows = std::min(grid.rows, camera.height);
+  return grid;
+}
+
 GridWork trace_grid(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
                     int threads, const std::function<void(int, std::span<const CameraSample>)>& use) {
   GridWork work;

@@ -17,6 +17,9 @@ struct PixelGrid {
   int pixels() const { return columns * rows; }
 };
 
+/// The usual grid, no finer than the picture: pixels that are taken twice would seem to know more than they do.
+PixelGrid grid_of(const Camera& camera);
+
 /// What it took.
 struct GridWork {
   RayCounts rays;

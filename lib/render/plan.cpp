@@ -73,7 +73,12 @@ void decide_by_pilot(PlanWork& work, PlannedEffect& planned) {
       remove_and_compare(work.scene, planned.effect, work.allowed, work.settings.threads, work.pilot);
   planned.basis = Basis::pilot;
   planned.loss = removal.loss;
-  planned.share = removal.share;
+  // Others move light or take it away.
+  if (planned.effect == Effect::gaps) {
+    planned.share = removal.share;
+    planned.share->value = std::max(planned.share->value, 0.0);
+    planned.share->high = std::max(planned.share->high, 0.0);
+  }
   planned.cost = removal.saves;
   planned.on = removal.loss.high > work.allowed;
   planned.reason += fmt::format("; without it E would be off by {}", percent_text(removal.loss));

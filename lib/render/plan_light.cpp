@@ -79,7 +79,6 @@ PlannedEffect plan_self_shadowing(PlanWork& work, const SelfLight& self) {
     planned.reason = self.form + ": nothing is in the way of its light";
   } else if (self.way == SelfLight::Way::gaps && !asked) {
     decide_by_pilot(work, planned);
-    planned.share.reset();  // it takes light away
   }
   return planned;
 }

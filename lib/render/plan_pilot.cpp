@@ -44,7 +44,7 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, double 
   pilot.seed = seed;
   pilot.error_floor = error_floor;
   const LightSettings& light = pilot.light;
-  PixelGrid grid;
+  PixelGrid grid = grid_of(scene.camera);
   grid.samples = pilot_samples;
   Parts parts;
   for (auto* picture :

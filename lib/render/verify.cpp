@@ -48,7 +48,7 @@ Verdict judge(const Plan& plan, const PlannedEffect& planned, const Interval& lo
 
 std::vector<Verdict> verify_plan(const Scene& scene, const Plan& plan, const LightSettings& light, double error_floor,
                                  std::uint32_t seed, int threads, const std::function<void(double)>& tell) {
-  PixelGrid grid;
+  PixelGrid grid = grid_of(scene.camera);
   grid.samples = verify_samples;
   grid.place = {0.2f, 0.7f};
   std::vector<const PlannedEffect*> open;

@@ -32,11 +32,16 @@ double narrowest_yarn(const Scene& scene) {
   return spacing;
 }
 
-/// The largest pixel in which yarns of that width begin to show, where |dP/du|^2 + |dP/dv|^2 is at most `stretch`.
-/// Between a yarn's width and its image lies the largest stretch in any direction, at most the root of that; twice
-/// its square leaves room for facets that are tilted by up to 45 degrees from the interpolated normal.
-double showing_pixel(const Scene& scene, double spacing, double stretch) {
-  return spacing * std::sqrt(2 * stretch) / double(scene.metres_per_uv) / double(begins);
+/// The largest pixel in which yarns of that width begin to show where lengths of cloth are stretched in the image by
+/// at most the root of `square`.
+double showing_pixel(const Scene& scene, double spacing, double square) {
+  return spacing * std::sqrt(square) / double(scene.metres_per_uv) / double(begins);
+}
+
+/// For derivatives of which no more is known than their lengths: in any direction they stretch by at most the root of
+/// their sum, and facets may be tilted by 45 degrees from the plane that they span.
+double square_at_most(float du2, float dv2) {
+  return 2 * (double(du2) + double(dv2));
 }
 
 /// The smaller side of a pixel at depth 1, across the ray in the picture's corner.
@@ -45,14 +50,30 @@ float pixel_at_unit(const Camera& camera) {
   return 2 * std::min(camera.tan_x / float(camera.width), camera.tan_y / float(camera.height)) / aslant;
 }
 
-/// Of anything between its corners: derivatives are interpolated, each by itself where they oppose one another.
+/// Square of the largest stretch between a quad's corners, whose derivatives are interpolated: no mean of them
+/// stretches more than the one that does most; facets are tilted from them as they are at the corners.
 double quad_stretch(const Mesh& mesh, const std::array<std::uint32_t, 4>& quad) {
-  float u = 0, v = 0;
+  constexpr float between = 0.95f;  // of the least cosine at the corners
+  const auto place = [&](size_t k) { return mesh.positions[quad[k]]; };
+  const std::array<Vec3, 2> facets{cross(place(1) - place(0), place(3) - place(0)),
+                                   cross(place(3) - place(2), place(1) - place(2))};
+  float u = 0, v = 0, most = 0, cosine = 1;
+  bool regular = true;
   for (const std::uint32_t corner : quad) {
-    u = std::max(u, dot(mesh.dpdu[corner], mesh.dpdu[corner]));
-    v = std::max(v, dot(mesh.dpdv[corner], mesh.dpdv[corner]));
+    const Vec3 &du = mesh.dpdu[corner], &dv = mesh.dpdv[corner], n = cross(du, dv);
+    const float uu = dot(du, du), vv = dot(dv, dv), uv = dot(du, dv);
+    u = std::max(u, uu);
+    v = std::max(v, vv);
+    most = std::max(most, (uu + vv) / 2 + std::hypot((uu - vv) / 2, uv));
+    // Where they oppose one another each is taken from the nearest corner by itself.
+    regular =
+        regular && dot(n, n) > 1e-4f * uu * vv && dot(du, mesh.dpdu[quad[0]]) > 0 && dot(dv, mesh.dpdv[quad[0]]) > 0;
+    for (const Vec3& facet : facets)
+      if (const float size = length(facet) * length(n); size > 0)
+        cosine = std::min(cosine, std::abs(dot(facet, n)) / size);
   }
-  return double(u) + double(v);
+  const double usual = square_at_most(u, v), cut = double(between * cosine);
+  return regular && cut > 0 ? std::min(usual, double(most) / (cut * cut)) : usual;
 }
 
 /// Whether some of a quad may be seen, and the least depth there. A lens and the pixels' filter look beside the
@@ -89,8 +110,8 @@ float near_weave_pixel(const Scene& scene) {
   if (!(spacing > 0)) return 0;
   double stretch = 0;
   for (size_t i = 0; i < scene.mesh->dpdu.size(); ++i)
-    stretch = std::max(stretch, double(dot(scene.mesh->dpdu[i], scene.mesh->dpdu[i])) +
-                                    double(dot(scene.mesh->dpdv[i], scene.mesh->dpdv[i])));
+    stretch = std::max(stretch, square_at_most(dot(scene.mesh->dpdu[i], scene.mesh->dpdu[i]),
+                                               dot(scene.mesh->dpdv[i], scene.mesh->dpdv[i])));
   return float(showing_pixel(scene, spacing, stretch));
 }
 

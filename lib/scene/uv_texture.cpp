@@ -32,10 +32,9 @@ struct Picture {
 /// The picture as colours or numbers, scaled, with whatever is not finite replaced by 0 and counted.
 Picture read_picture(const std::filesystem::path& path, const TextureValue& value, const ColorManager& colors,
                      bool is_color, PixelCounts& counts) {
-  ImageFileInfo info;
-  Image file = read_image(path, {}, &info);
+  Image file = read_image(path);
   Picture picture;
-  picture.alpha = take_alpha(file, info);
+  picture.alpha = take_alpha(file, read_image_info(path));
   const int channels = is_color ? 3 : 1;
   picture.image = Image(file.width, file.height, channels);
   Image& image = picture.image;

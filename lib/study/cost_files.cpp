@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "look/json_writer.h"
+#include "render/quality.h"
 #include "report/page.h"
 #include "study/bill_report.h"
 #include "study/cost_report.h"
@@ -17,8 +18,11 @@ void write_interval(JsonWriter& w, const char* name, const Interval& i) {
 }
 
 void write_price(JsonWriter& w, const Price& p, const PriceList& list) {
-  w.open_object().member("setting", p.setting).member("cpu_seconds", p.cpu_seconds);
-  w.member("setup_seconds", p.setup_seconds).member("noise", p.noise);
+  w.open_object().member("setting", p.setting).member("asked", p.asked);
+  write_interval(w, "cpu_seconds", p.cpu_seconds);
+  w.member("start_seconds", p.start_seconds).member("noise", p.noise);
+  write_interval(w, "time_factor", p.time_factor);
+  write_interval(w, "noise_factor", p.noise_factor);
   if (list.has_finest) {
     write_interval(w, "bias", p.bias.error);
     w.member("visible_code_values", p.bias.visible);
@@ -29,23 +33,39 @@ void write_price(JsonWriter& w, const Price& p, const PriceList& list) {
 }
 
 Table csv_table(const CostResult& result) {
-  Table table{{"part", "setting", "samples", "cpu_seconds", "setup_seconds", "error", "low", "high",
+  Table table{{"part", "setting", "samples", "cpu_seconds", "cpu_low", "cpu_high", "error", "low", "high",
                "claimed_or_noise", "visible", "enough"},
               {}};
   for (const CostPoint& p : result.points)
-    table.rows.push_back({"error against time", "", std::to_string(p.samples), number_text(p.cpu_seconds, 6), "",
-                          number_text(p.true_error.value, 6), number_text(p.true_error.low, 6),
-                          number_text(p.true_error.high, 6), number_text(p.claimed_error, 6), "", ""});
+    table.rows.push_back({"noise against time", "", std::to_string(p.samples), number_text(p.cpu_seconds.value, 6),
+                          number_text(p.cpu_seconds.low, 6), number_text(p.cpu_seconds.high, 6),
+                          number_text(p.noise.value, 6), number_text(p.noise.low, 6), number_text(p.noise.high, 6),
+                          number_text(p.claimed_error, 6), "", ""});
   for (const PriceList& list : result.lists)
     for (size_t i = 0; i < list.prices.size(); ++i) {
       const Price& p = list.prices[i];
-      table.rows.push_back({list.name, p.setting, std::to_string(result.settings.price_samples),
-                            number_text(p.cpu_seconds, 6), number_text(p.setup_seconds, 4),
-                            number_text(p.bias.error.value, 6), number_text(p.bias.error.low, 6),
-                            number_text(p.bias.error.high, 6), number_text(p.noise, 6),
-                            number_text(p.bias.visible, 4), int(i) == list.enough ? "yes" : ""});
+      table.rows.push_back(
+          {list.name, p.setting, std::to_string(result.settings.price_samples), number_text(p.cpu_seconds.value, 6),
+           number_text(p.cpu_seconds.low, 6), number_text(p.cpu_seconds.high, 6), number_text(p.bias.error.value, 6),
+           number_text(p.bias.error.low, 6), number_text(p.bias.error.high, 6), number_text(p.noise, 6),
+           number_text(p.bias.visible, 4), int(i) == list.enough ? "yes" : ""});
     }
+  for (const Quality& q : result.qualities)
+    if (q.measured)
+      table.rows.push_back({"recommended " + q.name, q.flags, std::to_string(q.samples),
+                            number_text(q.measured_seconds.value, 6), number_text(q.measured_seconds.low, 6),
+                            number_text(q.measured_seconds.high, 6), number_text(q.measured_error.value, 6),
+                            number_text(q.measured_error.low, 6), number_text(q.measured_error.high, 6), "", "", ""});
   return table;
+}
+
+std::string quality_words() {
+  constexpr const char* words[] = {"is grainy", "can be judged", "is clean"};
+  std::string text;
+  for (size_t i = 0; i < std::size(named_qualities); ++i)
+    text += fmt::format("{}{:.3g} % {} ({})", i > 0 ? ", " : "", 100 * named_qualities[i].error, words[i],
+                        named_qualities[i].name);
+  return text;
 }
 
 std::string file_of(size_t list, size_t setting) {
@@ -64,11 +84,20 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
   w.member("level", result.level).member("threads", thread_count(s.threads));
   w.member("reference_samples", result.reference_samples);
   w.member("reference_error", std::sqrt(result.reference_error.relative));
+  w.member("error_floor", result.error_floor);
+  w.key("start").open_object();
+  write_interval(w, "program", result.start.program);
+  write_interval(w, "assembly", result.start.assembly);
+  write_interval(w, "pilots", result.start.pilots);
+  write_interval(w, "albedo_table", result.start.albedo_table);
+  write_interval(w, "writing", result.start.writing);
+  w.member("cpu_seconds", result.start.seconds()).close();
   w.key("error_against_time").open_list();
   for (const CostPoint& p : result.points) {
-    w.open_object().member("samples", p.samples).member("cpu_seconds", p.cpu_seconds);
-    write_interval(w, "true_error", p.true_error);
-    w.member("claimed_error", p.claimed_error).close();
+    w.open_object().member("samples", p.samples);
+    write_interval(w, "cpu_seconds", p.cpu_seconds);
+    write_interval(w, "noise", p.noise);
+    w.member("error", p.error).member("claimed_error", p.claimed_error).close();
   }
   w.close();
   if (result.fit.known)
@@ -97,9 +126,17 @@ std::string cost_json(const CostResult& result, const std::string& version, cons
           .member("spp", q.samples)
           .member("noise", q.noise)
           .member("bias", q.bias)
+          .member("error", q.error())
           .member("cpu_seconds", q.cpu_seconds);
+    if (q.measured) {
+      write_interval(w, "measured_error", q.measured_error);
+      write_interval(w, "measured_cpu_seconds", q.measured_seconds);
+    }
     w.close();
   }
+  w.close().key("frontier").open_list();
+  for (const Quality& q : result.frontier)
+    w.open_object().member("flags", q.flags).member("error", q.error()).member("cpu_seconds", q.cpu_seconds).close();
   return w.close().close().text() + "\n";
 }
 
@@ -109,28 +146,38 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
   Page page("What accuracy costs in time",
             fmt::format("{} on {} under {}, {} x {} pixels{}", s.scene.look, light_label(s.scene.mesh),
                         light_label(s.scene.environment), s.scene.width, s.scene.height,
-                        halvings.empty() ? "." : ". E " + halvings.back()));
+                        halvings.empty() ? "." : ". Noise " + halvings.back()));
   if (result.interrupted) page.paragraph("INTERRUPTED: only what was finished is here.");
-  page.paragraph(
-      "E is the relative error of the whole picture: sqrt of the mean over pixels and channels of (x - r)^2 / (r^2 + "
-      "0.01) in the working space. 10 % is grainy, 4 % can be judged, 1 % is clean.");
+  page.paragraph(fmt::format(
+      "E is the relative error of the picture, noise and what settings give away in one: sqrt of the mean over "
+      "pixels "
+      "and channels of (x - r)^2 / (r^2 + floor^2) in the working space, floor {:.3g}: 0.1 as the picture "
+      "is exposed. {}. CPU-seconds are those of a whole render, from the start of the program to the "
+      "files.",
+      result.error_floor, quality_words()));
+  if (!result.qualities.empty()) {
+    page.section("Recommended settings");
+    page.table(quality_table(result));
+    page.note(
+        "The cheapest settings whose noise and bias together stay below E. Another setting than the one asked for is "
+        "taken where it is cheaper beyond the intervals; ties stay with what is asked for. The forecast takes "
+        "settings "
+        "to act independently: their times multiply and the squares of their biases add. Measured: rendered with "
+        "these flags, from the start, against a reference with the finest settings.");
+  }
   const std::vector<NamedPlot> plots = cost_plots(result);
   page.section("Error against time");
   for (const NamedPlot& plot : plots)
     if (plot.name == "error_time") page.plot(plot.sheet, plot.caption);
   page.table(point_table(result));
+  page.table(start_table(result));
   const int threads = thread_count(s.threads);
   for (const std::string& sentence : halvings)
-    page.paragraph(fmt::format("{}, with {} thread{}.", sentence, threads, threads == 1 ? "" : "s"));
+    page.paragraph(fmt::format("Noise {}, with {} thread{}.", sentence, threads, threads == 1 ? "" : "s"));
   std::vector<SliderPicture> shown;
   for (size_t i = 0; i < result.ladder_pictures.size(); ++i)
     shown.push_back({result.ladder_pictures[i].first, picture_uri(picture_folder / fmt::format("n_{}.jpg", i))});
   if (shown.size() > 1) page.slider("The same picture at growing samples.", shown, 760);
-  page.section("Recommended settings");
-  page.table(quality_table(result));
-  page.note(
-      "The cheapest combination whose noise and bias together stay below E. Settings are taken to act independently: "
-      "their times multiply and the squares of their biases add.");
   page.section("The price of approximations");
   for (const NamedPlot& plot : plots)
     if (plot.name == "prices") page.plot(plot.sheet, plot.caption);
@@ -149,17 +196,19 @@ std::string cost_page(const CostResult& result, const std::filesystem::path& pic
     add_bill(page, result.bill);
   }
   page.section("How it was measured");
-  page.paragraph(
-      fmt::format("On a picture of {} x {} pixels with the subdivision level of the whole one; CPU-seconds are "
-                  "scaled by the number "
-                  "of pixels, {:.1f}. Bias is measured between pairs of pictures with two seeds: in the product of "
-                  "both differences "
-                  "noise has no expectation. The visible difference is the largest that both pairs agree on, in "
-                  "8-bit code values "
-                  "of the display picture, means over 4 x 4 pixels. A setting is enough where it is below one code "
-                  "value and 0.1 % "
-                  "or lost in noise.",
-                  result.width, result.height, result.scale));
+  page.paragraph(fmt::format(
+      "On a picture of {} x {} pixels with the subdivision level of the whole one; CPU-seconds are "
+      "scaled by the number "
+      "of pixels, {:.1f}, those before and after the samples are not. Settings of a list are timed side by "
+      "side, {} times; intervals hold 95 % (Student's t). Bias is measured between pairs of pictures with two seeds: "
+      "in the product of "
+      "both differences "
+      "noise has no expectation. The visible difference is the largest that both pairs agree on, in "
+      "8-bit code values "
+      "of the display picture, means over 4 x 4 pixels. A setting is enough where it is below one code "
+      "value and 0.1 % "
+      "or lost in noise.",
+      result.width, result.height, result.scale, s.seeds));
   return page.html();
 }
 

@@ -29,41 +29,60 @@ std::vector<std::string> halving_sentences(const CostResult& result) {
   std::vector<std::string> all;
   if (!result.fit.known || result.fit.slope >= 0 || result.points.empty()) return all;
   const int threads = thread_count(result.settings.threads);
-  const double first = result.points.front().true_error.value, last = result.points.back().true_error.value;
+  const double first = result.points.front().noise.value, last = result.points.back().noise.value;
   for (const double error : {0.32, 0.16, 0.08, 0.04, 0.02, 0.01, 0.005, 0.0025}) {
     if (error > first * 1.5 || error / 2 < last / 2.5) continue;
-    const double seconds = (seconds_for_error(result, error / 2) - seconds_for_error(result, error)) / threads;
+    const double seconds = (seconds_for_noise(result, error / 2) - seconds_for_noise(result, error)) / threads;
     all.push_back(fmt::format("{} -> {}: +{}{}", percent_text(error), percent_text(error / 2), seconds_text(seconds),
                               error / 2 < last ? " (beyond what was measured)" : ""));
   }
   return all;
 }
 
+Table start_table(const CostResult& result) {
+  const StartPrice& s = result.start;
+  Table table{{"part", "CPU-seconds (95 % interval)"}, {}};
+  const auto row = [&](const char* name, const Interval& seconds) {
+    if (seconds.value > 0) table.rows.push_back({name, interval_text(seconds, 3)});
+  };
+  row("start of the program", s.program);
+  row("mesh, cloth and map made ready", s.assembly);
+  row("pilots that choose effects and sampling", s.pilots);
+  row("table for the albedo layer", s.albedo_table);
+  row("PNG and EXR written", s.writing);
+  table.rows.push_back({"together", number_text(s.seconds(), 3)});
+  return table;
+}
+
 Table point_table(const CostResult& result) {
-  Table table{{"samples", "CPU-seconds", "true E (95 % interval)", "claimed E", "claimed / true"}, {}};
+  Table table{{"samples", "CPU-seconds (95 % interval)", "E", "of it noise (95 % interval)", "noise as claimed",
+               "claimed / true"},
+              {}};
   for (const CostPoint& p : result.points)
-    table.rows.push_back({std::to_string(p.samples), number_text(p.cpu_seconds), interval_text(p.true_error),
-                          number_text(p.claimed_error), fmt::format("{:.2f}", p.claimed_error / p.true_error.value)});
+    table.rows.push_back({std::to_string(p.samples), interval_text(p.cpu_seconds, 3), percent_text(p.error),
+                          interval_text(p.noise, 3), number_text(p.claimed_error),
+                          fmt::format("{:.2f}", p.claimed_error / p.noise.value)});
   return table;
 }
 
 Table price_table(const PriceList& list) {
   const auto& prices = list.prices;
-  const bool setup = std::any_of(prices.begin(), prices.end(), [](const Price& p) { return p.setup_seconds > 0; });
-  Table table{{list.name, "CPU-seconds"}, {}};
-  if (setup) table.head.push_back("to start");
-  table.head.push_back("noise E");
+  const bool start = std::any_of(prices.begin(), prices.end(), [&](const Price& p) {
+    return std::abs(p.start_seconds - prices[0].start_seconds) > 0.01;
+  });
+  Table table{{list.name, "CPU-seconds (95 % interval)"}, {}};
+  if (start) table.head.push_back("of it start and files");
+  table.head.insert(table.head.end(), {"a sample's time, asked = 1", "noise E"});
   if (list.has_finest)
     table.head.insert(table.head.end(), {"bias as E (95 % interval)", "largest visible difference"});
-  if (!list.biased) table.head.push_back("noise^2 x time, least = 1");
+  if (!list.biased) table.head.push_back("noise^2 x time, asked = 1");
   table.head.push_back("");
-  double least = 1e300;
-  for (const Price& p : prices) least = std::min(least, p.noise * p.noise * p.cpu_seconds);
   for (size_t i = 0; i < prices.size(); ++i) {
     const Price& p = prices[i];
-    std::vector<std::string> row{p.setting, number_text(p.cpu_seconds)};
-    if (setup) row.push_back(fmt::format("{:.2g}", p.setup_seconds));
-    row.push_back(number_text(p.noise));
+    std::vector<std::string> row{p.setting + (p.asked ? " (asked)" : ""), interval_text(p.cpu_seconds, 3)};
+    if (start) row.push_back(fmt::format("{:.2g}", p.start_seconds));
+    row.push_back(p.asked ? "1" : interval_text(p.time_factor, 3));
+    row.push_back(percent_text(p.noise));
     if (list.has_finest && i + 1 == prices.size())
       row.insert(row.end(), {"held against this one", "0"});
     else if (list.has_finest)
@@ -71,8 +90,11 @@ Table price_table(const PriceList& list) {
                                          shown_percent(p.bias.error.low), shown_percent(p.bias.error.high)),
                              fmt::format("{:.1f} of 255{}", p.bias.visible,
                                          list.biased && p.bias.error.value > 0 ? "" : ", noise")});
-    if (!list.biased) row.push_back(fmt::format("{:.2f}", p.noise * p.noise * p.cpu_seconds / least));
-    const char* verdict = !list.biased ? "best" : i + 1 < prices.size() ? "more buys nothing" : "less can be seen";
+    if (!list.biased)
+      row.push_back(fmt::format("{:.2f}", p.noise_factor.value * p.noise_factor.value * p.time_factor.value));
+    const char* verdict = !list.biased            ? p.asked ? "none is better beyond chance" : "best"
+                          : i + 1 < prices.size() ? "more buys nothing"
+                                                  : "less can be seen";
     row.push_back(int(i) == list.enough ? verdict : "");
     table.rows.push_back(row);
   }
@@ -80,41 +102,52 @@ Table price_table(const PriceList& list) {
 }
 
 Table quality_table(const CostResult& result) {
-  Table table{{"quality", "E at most", "flags", "noise E", "bias E", "CPU-seconds"}, {}};
-  for (const Quality& q : result.qualities)
-    table.rows.push_back(q.reached ? std::vector<std::string>{q.name, percent_text(q.target), q.flags,
-                                                              percent_text(q.noise), percent_text(q.bias),
-                                                              number_text(q.cpu_seconds)}
-                                   : std::vector<std::string>{q.name, percent_text(q.target), "not reached"});
+  Table table{{"quality", "E at most", "add to your flags", "E, forecast", "E, measured (95 % interval)",
+               "CPU-seconds, forecast", "CPU-seconds, measured"},
+              {}};
+  for (const Quality& q : result.qualities) {
+    if (!q.reached) {
+      table.rows.push_back({q.name, percent_text(q.target), "not reached by any setting"});
+      continue;
+    }
+    const std::string dear = "not rendered: too dear";
+    const Interval& e = q.measured_error;
+    table.rows.push_back(
+        {q.name, percent_text(q.target), q.flags, percent_text(q.error()),
+         q.measured ? fmt::format("{} ({:.3g} to {:.3g})", percent_text(e.value), 100 * e.low, 100 * e.high) : dear,
+         number_text(q.cpu_seconds, 3), q.measured ? interval_text(q.measured_seconds, 3) : dear});
+  }
   return table;
 }
 
 std::vector<NamedPlot> cost_plots(const CostResult& result) {
   std::vector<NamedPlot> plots;
   if (!result.points.empty()) {
-    NamedPlot plot{"error_time",
-                   "True error against a reference, and what the program claims of itself. The frontier "
-                   "joins, for every error, the cheapest combination of settings; bias counts there.",
-                   {}};
+    NamedPlot plot{
+        "error_time",
+        "E, noise and bias together, against the CPU-seconds of a whole render. The least joins, for every "
+        "E, the cheapest settings; squares are recommended, with what they were measured as.",
+        {}};
     plot.sheet.title = "Error against time";
-    plot.sheet.subtitle = fmt::format("{}, {} x {}; bars are 95 % intervals", result.settings.scene.look,
-                                      result.settings.scene.width, result.settings.scene.height);
+    plot.sheet.subtitle =
+        fmt::format("{}, {} x {}; whole renders from the start of the program to the files",
+                    result.settings.scene.look, result.settings.scene.width, result.settings.scene.height);
     Plot panel;
     panel.x_label = "CPU-seconds of the picture";
     panel.y_label = "E";
     panel.slopes = true;
-    PlotSeries truth{"true E", {}, 0}, claimed{"claimed E", {}, 1, true, true}, frontier{"frontier", {}, 2};
-    for (const CostPoint& p : result.points) {
-      truth.points.push_back({p.cpu_seconds, p.true_error.value, p.true_error.low, p.true_error.high});
-      claimed.points.push_back({p.cpu_seconds, p.claimed_error});
+    PlotSeries asked{"settings as asked", {}, 0}, least{"the least", {}, 2}, forecast{"recommended", {}, 3, false},
+        measured{"recommended, measured", {}, 5, false};
+    for (const CostPoint& p : result.points) asked.points.push_back({p.cpu_seconds.value, p.error});
+    for (const Quality& q : result.frontier) least.points.push_back({q.cpu_seconds, q.error()});
+    for (const Quality& q : result.qualities) {
+      if (q.reached) forecast.points.push_back({q.cpu_seconds, q.error()});
+      if (q.measured)
+        measured.points.push_back(
+            {q.measured_seconds.value, q.measured_error.value, q.measured_error.low, q.measured_error.high});
     }
-    frontier.points = result.frontier;
-    panel.series = {truth, claimed};
-    if (!frontier.points.empty()) panel.series.push_back(frontier);
-    for (const Quality& q : result.qualities)
-      if (q.reached)
-        panel.series.push_back(
-            {q.name, {{q.cpu_seconds, std::hypot(q.noise, q.bias)}}, 3 + int(panel.series.size()) % 5, false});
+    for (const PlotSeries* each : {&asked, &least, &forecast, &measured})
+      if (!each->points.empty()) panel.series.push_back(*each);
     plot.sheet.panels.push_back(panel);
     plots.push_back(std::move(plot));
   }
@@ -136,7 +169,7 @@ std::vector<NamedPlot> cost_plots(const CostResult& result) {
     PlotSeries bias{"bias against the finest setting", {}, 0, false}, noise{"noise", {}, 7, false};
     for (const Price& p : list.prices) {
       const double row = double(panel.rows.size());
-      panel.rows.push_back(p.setting);
+      panel.rows.push_back(p.setting + (p.asked ? " (asked)" : ""));
       bias.points.push_back({p.bias.error.value, row, p.bias.error.low, p.bias.error.high});
       noise.points.push_back({p.noise, row});
     }
@@ -153,25 +186,31 @@ std::string cost_text(const CostResult& result) {
   if (result.interrupted) text += "INTERRUPTED: only what was finished is here.\n\n";
   for (const std::string& warning : result.warnings) text += "warning: " + warning + "\n";
   text += fmt::format(
-      "{} on {} under {}, {} x {}, level {}; measured on {} x {} pixels, times scaled to the whole picture.\n"
-      "E is the relative error of the picture: sqrt of the mean of (x - r)^2 / (r^2 + 0.01). {:.0f} CPU-seconds.\n\n",
+      "{} on {} under {}, {} x {}, level {}; measured on {} x {} pixels, samples' times scaled to the whole "
+      "picture.\n"
+      "CPU-seconds are those of a whole render, from the start of the program to the files.\n"
+      "E is noise and bias together: sqrt of the mean of (x - r)^2 / (r^2 + floor^2), floor {:.3g} (0.1 as the "
+      "picture "
+      "is exposed). {:.0f} CPU-seconds.\n\n",
       s.scene.look, s.scene.mesh, s.scene.environment, s.scene.width, s.scene.height, result.level, result.width,
-      result.height, result.cpu_seconds);
-  if (!result.points.empty()) text += "Error against time\n\n" + table_text(point_table(result)) + "\n";
+      result.height, result.error_floor, result.cpu_seconds);
+  if (!result.qualities.empty()) text += "Recommended\n\n" + table_text(quality_table(result)) + "\n";
+  if (!result.points.empty()) {
+    text += "Error against time, with the settings as asked\n\n" + table_text(point_table(result)) + "\n";
+    text += "Before the first sample and after the last\n\n" + table_text(start_table(result)) + "\n";
+  }
   if (result.fit.known)
-    text += fmt::format("E falls as time^{:.2f}. With {} thread{}:\n", result.fit.slope, thread_count(s.threads),
-                        thread_count(s.threads) == 1 ? "" : "s");
+    text += fmt::format("Noise falls as the samples' time^{:.2f}. With {} thread{}:\n", result.fit.slope,
+                        thread_count(s.threads), thread_count(s.threads) == 1 ? "" : "s");
   for (const std::string& sentence : halving_sentences(result)) text += "  " + sentence + "\n";
   if (result.reference_samples > 0 && !result.points.empty())
     text += fmt::format("The reference has {} samples; its own E is {}.\n", result.reference_samples,
                         percent_text(std::sqrt(result.reference_error.relative)));
   for (const PriceList& list : result.lists) {
-    text += fmt::format("\nPrice of {}{}\n\n{}", list.name, list.note.empty() ? "" : " (" + list.note + ")",
-                        table_text(price_table(list)));
+    text += fmt::format("\nPrice of {} at {} samples{}\n\n{}", list.name, s.price_samples,
+                        list.note.empty() ? "" : " (" + list.note + ")", table_text(price_table(list)));
   }
   if (!result.bill.items.empty()) text += "\nThe bill of effects\n\n" + table_text(bill_table(result.bill));
-  if (!result.qualities.empty())
-    text += "\nRecommended: noise and bias together\n\n" + table_text(quality_table(result));
   return text;
 }
 

@@ -9,10 +9,11 @@
 
 namespace sateen {
 
-/// "2 % -> 1 %: +31 s" for halvings within what was measured, and a last one beyond it; seconds by the clock with the
-/// threads of the settings, on a machine that does nothing else.
+/// "2 % -> 1 %: +31 s" for halvings of the noise within what was measured, and a last one beyond it; seconds by the
+/// clock with the threads of the settings, on a machine that does nothing else.
 std::vector<std::string> halving_sentences(const CostResult& result);
 
+Table start_table(const CostResult& result);
 Table point_table(const CostResult& result);
 Table price_table(const PriceList& list);
 Table quality_table(const CostResult& result);

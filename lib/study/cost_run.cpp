@@ -7,23 +7,19 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "film/develop.h"
-#include "mesh/subdivide.h"
-#include "render/candidates.h"
+#include "render/quality.h"
 #include "study/cost.h"
+#include "study/cost_steps.h"
+#include "study/render_start.h"
 #include "study/work_clock.h"
 
 namespace sateen {
 
 namespace {
-
 constexpr int reference_factor = 8;
-constexpr double plan_error = 0.01;  // that of the best quality that is recommended
-constexpr std::uint32_t reference_seed = 900001, pair_seed = 700001;
+constexpr double plan_error = named_qualities[2].error;  // of the best quality that is recommended
 
-bool same_bits(const Film& a, const Film& b) {
-  return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
-                    [](const FilmPixel& p, const FilmPixel& q) { return p.beauty == q.beauty; });
-}
+enum class Part : std::uint32_t { reference, finest, points, prices, recommended };
 
 class CostMeasurement {
  public:
@@ -31,60 +27,106 @@ class CostMeasurement {
                   const std::function<void(const StudyState&)>& observe, const std::atomic<bool>* interrupt)
       : colors_(colors), observe_(observe), clock_(1, interrupt) {
     result_.settings = settings;
+    effects_ = settings.effects;
+    request_light_ = settings.light;
   }
 
   CostResult run() {
     const double cpu_start = cpu_seconds();
     prepare();
     measure_points();
-    measure_bounces();
-    measure_levels();
-    for (const Approximation& each : approximation_list()) measure_approximation(each);
-    measure_strategies();
-    measure_candidates();
-    make_out_bill();
-    settle_advice(result_);
+    if (!clock_.stopped()) {
+      const CostBase base{small_,
+                          result_.settings.light,
+                          result_.plan,
+                          described_,
+                          scene_,
+                          look_,
+                          effects_,
+                          most_bounces_,
+                          result_.error_floor,
+                          result_.settings.seed,
+                          result_.settings.threads,
+                          colors_};
+      std::vector<CostSteps> all = cost_steps(base);
+      for (CostSteps& each : all) measure_list(each);
+      set_time_factors();
+      make_out_bill();
+      settle_advice(result_);
+      measure_advice(all);
+    }
     result_.interrupted = clock_.stopped();
     result_.cpu_seconds = cpu_seconds() - cpu_start;
     return std::move(result_);
   }
 
  private:
-  struct Pair {
-    Film a, b;
-    double cpu_seconds = 0, noise = 0;
-  };
-
   // The level is that of the picture as asked, not of the small one that is measured.
   void prepare() {
     const CostSettings& s = result_.settings;
     tell("the scene");
-    SceneReport report;
-    scene_ = assemble_scene(s.scene, colors_, report);
-    result_.warnings = report.warnings;
-    result_.level = report.level;
-    LightSettings& light = result_.settings.light;
-    exposure_ = s.exposure_ev.value_or(report.metered_ev);
-    const double floor = error_floor_at(double(exposure_));
-    result_.plan =
-        make_plan(scene_, report.look, {s.effects, plan_error, floor, light, std::uint32_t(s.seed), s.threads});
-    apply_plan(result_.plan, scene_, light);
-    settle_candidates(scene_, s.effects.candidates, light, floor, s.seed, s.threads);
     const double pixels = double(s.scene.width) * s.scene.height, share = std::min(1.0, s.pixels / pixels);
     result_.width = std::max(16, int(std::lround(s.scene.width * std::sqrt(share))));
     result_.height = std::max(16, int(std::lround(s.scene.height * std::sqrt(share))));
     result_.scale = pixels / (double(result_.width) * result_.height);
+    SceneReport report;
+    described_ = assemble_scene(s.scene, colors_, report);
+    look_ = report.look;
+    result_.warnings = report.warnings;
+    result_.level = report.level;
+    exposure_ = s.exposure_ev.value_or(report.metered_ev);
+    result_.error_floor = error_floor_at(double(exposure_));
+    const auto plan = [&](double error) {
+      return make_plan(described_, look_, {effects_, error, result_.error_floor, s.light, s.seed, s.threads});
+    };
+    const Plan finest = plan(plan_error);
+    most_bounces_ = finest.bounces;
+    result_.effects_flags = effects_flags_of(finest, plan(0), effects_);
+    std::vector<double> assembly, pilots, albedo;
+    for (int k = 0; k < s.seeds && !clock_.stopped(); ++k) {
+      RenderStart start = start_render(s.scene, effects_, s.light, result_.error_floor, s.seed, s.threads, colors_);
+      assembly.push_back(start.assembly_seconds);
+      pilots.push_back(start.pilot_seconds);
+      if (s.layers && s.albedo_layer) albedo.push_back(albedo_table_seconds(start.scene, s.threads));
+      if (k > 0) continue;
+      scene_ = std::move(start.scene);
+      result_.plan = std::move(start.plan);
+      result_.settings.light = start.light;
+    }
+    result_.start.program = {s.program_seconds, s.program_seconds, s.program_seconds};
+    if (!assembly.empty()) result_.start.assembly = repeated_interval(assembly);
+    if (!pilots.empty()) result_.start.pilots = repeated_interval(pilots);
+    if (!albedo.empty()) result_.start.albedo_table = repeated_interval(albedo);
     small_ = s.scene;
     small_.level = report.level;
     small_.width = result_.width;
     small_.height = result_.height;
-    scene_.camera = frame_points(scene_.mesh->positions, small_.camera, small_.width, small_.height);
-    // Samples a pixel, roughly; bounces and levels cost about twice a plain one.
-    clock_.plan(s.seeds * 2.0 * s.most_samples + reference_factor * s.most_samples + s.price_samples * 2.0 * 45);
+    frame_small(scene_);
+    plan_work();
+  }
+
+  void frame_small(Scene& scene) const {
+    scene.camera = frame_points(scene.mesh->positions, small_.camera, small_.width, small_.height);
+    if (scene.ground || scene.lens) set_stage(scene, small_.stage, result_.settings.threads);
+  }
+
+  // In samples a pixel, roughly.
+  void plan_work() {
+    constexpr double steps = 45;
+    const CostSettings& s = result_.settings;
+    clock_.plan(s.seeds * 2.0 * s.most_samples + 2.0 * reference_factor * s.most_samples +
+                s.price_samples * s.seeds * steps + s.seeds * 6.0 * s.most_samples);
   }
 
   void tell(const std::string& doing) {
     if (observe_) observe_({clock_.fraction(), clock_.seconds_left(), doing});
+  }
+
+  // Every part and repetition has samples of its own, and all of them follow the seed that is asked for.
+  std::uint32_t seed_of(Part part, int repetition) const {
+    std::uint32_t mixed = result_.settings.seed * 0x9e3779b9u + std::uint32_t(part) * 0x85ebca6bu;
+    mixed ^= mixed >> 15;
+    return mixed * 0x2c1b3c6du + std::uint32_t(repetition);
   }
 
   RenderResult render_film(const Scene& scene, const LightSettings& light, int samples, std::uint32_t seed,
@@ -94,16 +136,23 @@ class CostMeasurement {
     settings.stop.spp = samples;
     settings.seed = seed;
     settings.threads = result_.settings.threads;
-    settings.albedo_layer = false;
+    settings.error_floor = result_.error_floor;
+    settings.albedo_layer = false;  // its table is a part of the start
     const RenderResult done = render(scene, settings, film, {}, clock_.interrupt());
     clock_.done(samples);
     return done;
   }
 
-  Film empty_film() const { return {result_.width, result_.height, false}; }
+  Film empty_film() const { return {result_.width, result_.height, result_.settings.layers}; }
 
   Image shown(const Film& film) const {
     return develop_display(develop_beauty(film), colors_, result_.settings.display, exposure_);
+  }
+
+  Interval whole(const Interval& samples, double start) const {
+    const double value = samples.value + start, more = result_.start.scatter();
+    return {value, value - std::hypot(samples.value - samples.low, more),
+            value + std::hypot(samples.high - samples.value, more)};
   }
 
   void measure_points() {
@@ -111,209 +160,150 @@ class CostMeasurement {
     tell("the reference");
     Film truth = empty_film();
     result_.reference_samples = reference_factor * s.most_samples;
-    render_film(scene_, s.light, result_.reference_samples, reference_seed, truth);
+    render_film(scene_, s.light, result_.reference_samples, seed_of(Part::reference, 0), truth);
     if (clock_.stopped()) return;
-    reference_ = make_reference(truth, result_.reference_samples);
+    reference_ = make_reference(truth, result_.reference_samples, result_.error_floor);
     result_.reference_error = reference_.own;
-    std::vector<PlotPoint> curve;
+    result_.start.writing = writing_interval(truth, result_.scale, s.seeds, s.display, exposure_, colors_, s.threads);
+    std::vector<std::vector<double>> times;
     for (int samples = replicates; samples <= s.most_samples; samples *= 2) {
       tell(fmt::format("error at {} samples", samples));
       CostPoint point;
       point.samples = samples;
-      std::vector<double> squares;
+      std::vector<double> squares, seconds;
       for (int k = 0; k < s.seeds; ++k) {
         Film film = empty_film();
-        const RenderResult done = render_film(scene_, s.light, samples, s.seed + std::uint32_t(k), film);
-        if (clock_.stopped()) return;
+        const RenderResult done = render_film(scene_, s.light, samples, seed_of(Part::points, k), film);
+        if (clock_.stopped()) return set_point_times(times);
         squares.push_back(mse_against(film, reference_).relative);
-        // Another program's load adds to times and never takes away.
-        const double seconds = done.cpu_seconds * result_.scale;
-        point.cpu_seconds = k == 0 ? seconds : std::min(point.cpu_seconds, seconds);
+        seconds.push_back(done.cpu_seconds * result_.scale);
         point.claimed_error += done.error.error / s.seeds;
         if (k == 0) result_.ladder_pictures.emplace_back(fmt::format("{} samples", samples), shown(film));
       }
-      point.true_error = jackknife_interval(s.seeds, [&](int without) {
-        double sum = 0;
-        for (int k = 0; k < s.seeds; ++k) sum += k + 1 == without ? 0 : squares[size_t(k)];
-        return std::log(sum / (s.seeds - (without > 0 ? 1 : 0))) / 2;
-      });
+      point.noise = error_interval(squares);
+      times.push_back(seconds);
       result_.points.push_back(point);
-      curve.push_back({point.cpu_seconds, point.true_error.value});
     }
-    result_.fit = fit_power(curve);
+    set_point_times(times);
     result_.ladder_pictures.emplace_back(fmt::format("reference, {} samples", result_.reference_samples),
                                          shown(truth));
   }
 
-  Pair render_pair(const Scene& scene, const LightSettings& light) {
-    Pair pair{empty_film(), empty_film()};
-    for (Film* film : {&pair.a, &pair.b}) {
-      const RenderResult done = render_film(scene, light, result_.settings.price_samples,
-                                            film == &pair.a ? pair_seed : pair_seed + 1, *film);
-      const double seconds = done.cpu_seconds * result_.scale;
-      pair.cpu_seconds = film == &pair.a ? seconds : std::min(pair.cpu_seconds, seconds);
-      pair.noise += done.error.error / 2;
+  void set_point_times(const std::vector<std::vector<double>>& times) {
+    std::vector<PlotPoint> curve;
+    const std::vector<Interval> pooled = pooled_intervals(times);
+    for (size_t i = 0; i < times.size(); ++i) {
+      curve.push_back({pooled[i].value, result_.points[i].noise.value});
+      result_.points[i].cpu_seconds = whole(pooled[i], result_.start.seconds());
     }
-    return pair;
+    result_.fit = fit_power(curve);
   }
 
-  /// One setting to be priced.
-  struct Step {
-    std::string setting;
-    std::vector<std::string> flags = {};
-    bool asked = false;
-    LightSettings light;
-    std::function<void(Scene&)> make = {};  ///< changes a copy of the scene
+  /// What a step was measured as, a repetition a place.
+  struct Measured {
+    std::shared_ptr<Scene> scene;  ///< empty: that of the picture
+    double make_seconds = 0;
+    std::vector<double> seconds, noise;  ///< of the samples, of the whole picture; E
+    Film a, b;                           ///< of the first two repetitions
   };
 
-  /// Renders a pair at every step, the last of which is the finest, and keeps the list where it is whole.
-  void measure_list(PriceList list, const std::vector<Step>& steps) {
-    std::vector<Pair> pairs;
-    for (const Step& step : steps) {
+  // What is quick is timed again and again: the first time pays for what the others find in the caches.
+  double make_scene(const CostStep& step, Measured& m) const {
+    std::vector<double> seconds;
+    for (int k = 0; k < result_.settings.seeds; ++k) {
+      m.scene = std::make_shared<Scene>(scene_);
+      const double start = cpu_seconds();
+      step.make(*m.scene);
+      seconds.push_back(std::max(cpu_seconds() - start, 1e-9));
+      if (seconds.back() > 0.5) break;
+    }
+    return repeated_interval(seconds).value;
+  }
+
+  /// Renders all steps of a list side by side, repetition after repetition, and keeps the list where it is whole.
+  void measure_list(CostSteps& work) {
+    PriceList& list = work.list;
+    std::vector<Measured> all;
+    std::vector<CostStep> steps;
+    for (const CostStep& step : work.steps) {
       if (clock_.stopped()) return;
       tell(list.name + " " + step.setting);
-      Price price;
-      price.setting = step.setting + (step.asked ? " (asked)" : "");
-      price.flags = step.flags;
-      if (step.make) {
-        Scene scene = scene_;
-        const double start = cpu_seconds();
-        try {
-          step.make(scene);
-        } catch (const InputError& error) {
-          list.note += fmt::format("; {} is not possible here: {}", step.setting, error.diagnostics[0].message);
-          continue;
-        }
-        price.setup_seconds = cpu_seconds() - start;
-        pairs.push_back(render_pair(scene, step.light));
-      } else {
-        pairs.push_back(render_pair(scene_, step.light));
+      Measured m;
+      try {
+        if (step.make) m.make_seconds = make_scene(step, m);
+      } catch (const InputError& error) {
+        list.note += fmt::format("; {} is not possible here: {}", step.setting, error.diagnostics[0].message);
+        continue;
       }
-      list.prices.push_back(std::move(price));
+      all.push_back(std::move(m));
+      steps.push_back(step);
     }
-    if (clock_.stopped() || pairs.size() < 2) return;
+    work.steps = steps;
+    if (steps.size() < 2) return;
+    const CostSettings& s = result_.settings;
+    for (int k = 0; k < s.seeds; ++k)
+      for (size_t i = 0; i < steps.size(); ++i) {
+        tell(list.name + " " + steps[i].setting);
+        Film film = empty_film();
+        const RenderResult done = render_film(all[i].scene ? *all[i].scene : scene_, steps[i].light, s.price_samples,
+                                              seed_of(Part::prices, k), film);
+        if (clock_.stopped()) return;
+        all[i].seconds.push_back(done.cpu_seconds * result_.scale);
+        // Of settings that converge to the same picture the true error: what they claim of themselves is too little
+        // where light is met by rare samples, as a sun is by uniform ones.
+        all[i].noise.push_back(list.biased ? done.error.error : std::sqrt(mse_against(film, reference_).relative));
+        if (k < 2) (k == 0 ? all[i].a : all[i].b) = std::move(film);
+      }
+    set_prices(list, steps, all);
+    result_.lists.push_back(list);
+  }
+
+  void set_prices(PriceList& list, const std::vector<CostStep>& steps, std::vector<Measured>& all) {
     // The same bits are the same work: only chance makes their times differ.
-    for (size_t i = 1; i < pairs.size(); ++i)
-      if (same_bits(pairs[i - 1].a, pairs[i].a))
-        pairs[i].cpu_seconds = std::min(pairs[i].cpu_seconds, pairs[i - 1].cpu_seconds);
-    for (size_t i = pairs.size() - 1; i > 0; --i)
-      if (same_bits(pairs[i - 1].a, pairs[i].a)) pairs[i - 1].cpu_seconds = pairs[i].cpu_seconds;
-    for (size_t i = 0; i < pairs.size(); ++i) {
-      const Pair& pair = pairs[i];
-      Price& price = list.prices[i];
-      price.cpu_seconds = pair.cpu_seconds;
-      // Of settings that converge to the same picture the true error: what they claim of themselves is too little
-      // where light is met by rare samples, as a sun is by uniform ones.
-      price.noise = list.biased ? pair.noise : true_error(pair);
-      if (list.has_finest && i + 1 < pairs.size())
-        price.bias = measure_bias({pair.a, pair.b}, {pairs.back().a, pairs.back().b}, colors_,
-                                  result_.settings.display, exposure_);
-      price.picture = shown(pair.a);
+    for (size_t i = 0; i < all.size(); ++i)
+      for (size_t j = 0; j < i; ++j)
+        if (same_bits(all[i].a, all[j].a)) {
+          all[i].seconds = all[j].seconds;
+          break;
+        }
+    size_t own = all.size() - 1;  // stands for what is asked for where that is not in the list
+    for (size_t i = 0; i < steps.size(); ++i)
+      if (steps[i].asked) own = i;
+    const auto ratios = [](const std::vector<double>& of, const std::vector<double>& base) {
+      std::vector<double> found;
+      for (size_t k = 0; k < of.size(); ++k) found.push_back(of[k] / base[k]);
+      return found;
+    };
+    for (size_t i = 0; i < all.size(); ++i) {
+      Price p;
+      p.setting = steps[i].setting;
+      p.flags = steps[i].flags;
+      p.asked = steps[i].asked;
+      p.start_seconds = std::max(result_.start.seconds() + all[i].make_seconds - all[own].make_seconds, 0.0);
+      seconds_.push_back(all[i].seconds);
+      if (i != own && all[i].seconds != all[own].seconds) {
+        time_ratios_.push_back(ratios(all[i].seconds, all[own].seconds));
+        timed_.emplace_back(result_.lists.size(), i);
+      }
+      p.noise_factor = repeated_interval(ratios(all[i].noise, all[own].noise));
+      p.noise = repeated_interval(all[i].noise).value;
+      if (list.has_finest && i + 1 < all.size())
+        p.bias = measure_bias({all[i].a, all[i].b}, {all.back().a, all.back().b}, colors_, result_.settings.display,
+                              exposure_);
+      p.picture = shown(all[i].a);
+      list.prices.push_back(std::move(p));
     }
-    result_.lists.push_back(std::move(list));
   }
 
-  double true_error(const Pair& pair) const {
-    return std::sqrt((mse_against(pair.a, reference_).relative + mse_against(pair.b, reference_).relative) / 2);
-  }
-
-  void measure_bounces() {
-    const int own = result_.settings.light.bounces;
-    std::vector<int> numbers{0, 1, 2, 4};
-    if (own <= numbers.back()) numbers.push_back(8);  // else its own are the finest
-    if (std::find(numbers.begin(), numbers.end(), own) == numbers.end()) numbers.push_back(own);
-    std::sort(numbers.begin(), numbers.end());
-    std::vector<Step> steps;
-    for (const int bounces : numbers) {
-      steps.push_back({fmt::format("{}", bounces),
-                       {fmt::format("--bounces {}", bounces)},
-                       bounces == own,
-                       result_.settings.light});
-      steps.back().light.bounces = bounces;
-    }
-    measure_list({"bounces"}, steps);
-  }
-
-  void measure_strategies() {
-    PriceList list{"strategy"};
-    list.biased = list.has_finest = false;
-    list.note = "all converge to the same picture: true error squared times time decides";
-    std::vector<Step> steps;
-    for (const std::string& name : strategy_names()) {
-      LightSettings light = result_.settings.light;
-      light.strategy = strategy_from_name(name);
-      steps.push_back({name, {"--strategy " + name}, light.strategy == result_.settings.light.strategy, light});
-    }
-    measure_list(std::move(list), steps);
-  }
-
-  void measure_candidates() {
-    const bool own = result_.settings.light.strategy == Strategy::resampled;
-    PriceList list{"candidates"};
-    list.biased = list.advised = false;
-    list.note = "of strategy resampled; true error squared times time decides";
-    std::vector<Step> steps;
-    const CandidateCounts settled = result_.settings.light.candidates;
-    std::vector<CandidateCounts> counts{1, 2, 4, 8, 16};
-    if (own && std::find(counts.begin(), counts.end(), settled) == counts.end()) counts.push_back(settled);
-    for (const CandidateCounts& each : counts) {
-      LightSettings light = result_.settings.light;
-      light.strategy = Strategy::resampled;
-      light.candidates = each;
-      const std::string text = candidates_text(each);
-      steps.push_back({text, {"--strategy resampled", "--candidates " + text}, own && each == settled, light});
-    }
-    measure_list(std::move(list), steps);
-  }
-
-  void measure_levels() {
-    constexpr std::int64_t most_triangles = 6'000'000;
-    int finest = result_.level;
-    std::int64_t triangles = scene_.mesh->triangles();
-    while (finest < finest_level && finest < result_.level + 2 && 4 * triangles <= most_triangles)
-      ++finest, triangles *= 4;
-    std::vector<Step> steps;
-    for (int level = std::max(0, finest - 4); level <= finest; ++level)
-      steps.push_back({fmt::format("{}", level),
-                       {fmt::format("--level {}", level)},
-                       level == result_.level,
-                       result_.settings.light,
-                       [this, level](Scene& scene) {
-                         SceneSettings settings = small_;
-                         settings.level = level;
-                         SceneReport report;
-                         const Camera camera = scene.camera;  // one framing for all
-                         scene = assemble_scene(settings, colors_, report);
-                         scene.camera = camera;
-                         follow_plan(scene);
-                       }});
-    measure_list({"subdivision level"}, steps);
-  }
-
-  void measure_approximation(const Approximation& each) {
-    const Approximations& own = small_.approximations;
-    PriceList list{each.name};
-    list.biased = each.biased;
-    list.advised = each.advised;
-    list.note = each.note;
-    std::vector<Step> steps;
-    for (const std::string& text : each.ladder(own, scene_)) {
-      SceneSettings settings = small_;
-      each.read(text, settings.approximations);
-      Step step{text, {}, text == each.text(own), result_.settings.light};
-      if (text != each.text({})) step.flags = {each.flag + " " + text};
-      step.make = [this, settings, &each](Scene& scene) {
-        each.rebuild(settings, colors_, scene);
-        follow_plan(scene);
-      };
-      steps.push_back(std::move(step));
-    }
-    measure_list(std::move(list), steps);
-  }
-
-  void follow_plan(Scene& scene) const {
-    LightSettings planned = result_.settings.light;
-    apply_plan(result_.plan, scene, planned);
+  // Times scatter alike whatever is timed, by what else the machine does.
+  void set_time_factors() {
+    const std::vector<Interval> factors = pooled_intervals(time_ratios_);
+    for (size_t i = 0; i < factors.size(); ++i)
+      result_.lists[timed_[i].first].prices[timed_[i].second].time_factor = factors[i];
+    const std::vector<Interval> seconds = pooled_intervals(seconds_);
+    size_t next = 0;
+    for (PriceList& list : result_.lists)
+      for (Price& p : list.prices) p.cpu_seconds = whole(seconds[next++], p.start_seconds);
   }
 
   void make_out_bill() {
@@ -327,17 +317,79 @@ class CostMeasurement {
     result_.bill = make_bill(scene_, result_.plan, s.light, settings, colors_, s.seed, s.threads);
   }
 
+  RenderStart start(const RenderRequest& request) const {
+    RenderStart made = start_render(request.scene, request.effects, request.light, result_.error_floor,
+                                    result_.settings.seed, result_.settings.threads, colors_);
+    frame_small(made.scene);
+    return made;
+  }
+
+  /// Renders what is recommended as the flags would, from the start, against a reference with the finest settings.
+  void measure_advice(const std::vector<CostSteps>& all) {
+    const CostSettings& s = result_.settings;
+    const int most = 2 * reference_factor * s.most_samples;
+    const auto affordable = [&](const Quality& q) { return q.reached && q.samples <= most; };
+    if (clock_.stopped() || std::none_of(result_.qualities.begin(), result_.qualities.end(), affordable)) return;
+    tell("the reference of the recommendations");
+    const RenderRequest asked{s.scene, request_light_, effects_};
+    std::vector<int> best_settings;
+    for (const PriceList& list : result_.lists)
+      best_settings.push_back(list.biased && list.advised ? int(list.prices.size()) - 1 : -1);
+    const RenderRequest finest = request_of(all, result_.lists, best_settings, asked);
+    Reference truth;
+    {
+      const RenderStart best = start(finest);
+      Film film = empty_film();
+      render_film(best.scene, best.light, result_.reference_samples, seed_of(Part::finest, 0), film);
+      if (clock_.stopped()) return;
+      truth = make_reference(film, result_.reference_samples, result_.error_floor);
+    }
+    for (Quality& q : result_.qualities) {
+      if (!affordable(q)) continue;
+      const RenderRequest request = request_of(all, result_.lists, q.chosen, asked);
+      std::vector<double> squares, seconds;
+      for (int k = 0; k < s.seeds; ++k) {
+        tell(fmt::format("the recommended {}", q.name));
+        const RenderStart made = start(request);
+        const double fixed = result_.start.program.value + made.assembly_seconds + made.pilot_seconds +
+                             result_.start.albedo_table.value + result_.start.writing.value;
+        Film film = empty_film();
+        const RenderResult done = render_film(made.scene, made.light, q.samples, seed_of(Part::recommended, k), film);
+        if (clock_.stopped()) return;
+        squares.push_back(mse_against(film, truth).relative);
+        seconds.push_back(fixed + done.cpu_seconds * result_.scale);
+      }
+      q.measured = true;
+      q.measured_error = error_interval(squares);
+      q.measured_seconds = repeated_interval(seconds);
+    }
+  }
+
   const ColorManager& colors_;
   const std::function<void(const StudyState&)>& observe_;
   WorkClock clock_;
   CostResult result_;
   Reference reference_;
   SceneSettings small_;
-  Scene scene_;
+  Look look_;
+  EffectSwitches effects_;
+  LightSettings request_light_;
+  int most_bounces_ = 0;
+  Scene described_, scene_;
   float exposure_ = 0;
+  std::vector<std::vector<double>> seconds_;      ///< of every price's samples, a repetition a place
+  std::vector<std::vector<double>> time_ratios_;  ///< of a sample to what is asked for, a repetition a place
+  std::vector<std::pair<size_t, size_t>> timed_;  ///< list and setting that they belong to
 };
 
 }  // namespace
+
+double StartPrice::scatter() const {
+  double squares = 0;
+  for (const Interval* each : {&program, &assembly, &pilots, &albedo_table, &writing})
+    squares += std::pow((each->high - each->low) / 2, 2);
+  return std::sqrt(squares);
+}
 
 CostResult measure_cost(const CostSettings& settings, const ColorManager& colors,
                         const std::function<void(const StudyState&)>& observe, const std::atomic<bool>* interrupt) {

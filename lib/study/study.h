@@ -7,6 +7,7 @@
 #include "integrator/strategy.h"
 #include "study/measure.h"
 #include "study/study_scene.h"
+#include "study/thread_study.h"
 
 namespace sateen {
 
@@ -59,6 +60,9 @@ struct StudyResult {
   std::vector<StudyScene> scenes;
   std::vector<StudyRun> runs;
   std::vector<StudyPicture> pictures;
+  std::vector<ThreadRow> thread_rows;    ///< the talk's claims of single threads, by quadrature
+  std::vector<TalkFigure> talk_figures;  ///< its figures, of bare threads and of whole cloth
+  std::vector<std::pair<std::string, Image>> thread_pictures;
   std::vector<std::string> skipped;     ///< what was left out and why, one sentence each
   Strategy ours = Strategy::automatic;  ///< what the program does unless told otherwise
   double seconds = 0, cpu_seconds = 0;

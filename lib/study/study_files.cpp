@@ -22,7 +22,7 @@ std::string study_json(const StudyResult& result, const std::string& version, co
   w.key("size").open_list().value(result.settings.scene.width).value(result.settings.scene.height).close();
   w.member("seeds", result.settings.seeds).member("equal_time_samples", result.settings.samples);
   w.member("ours", strategy_name(result.ours));
-  w.member("measure", "relative MSE: mean of (x - r)^2 / (r^2 + 0.01), working space at exposure 0");
+  w.member("measure", "relative MSE: mean of (x - r)^2 / (r^2 + floor^2), floor 0.1 as the picture is exposed");
   w.key("skipped").open_list();
   for (const std::string& each : result.skipped) w.value(each);
   w.close().key("bars").open_list();
@@ -39,6 +39,25 @@ std::string study_json(const StudyResult& result, const std::string& version, co
     write_interval(w, "over_uniform_with_4_times_the_samples", claim.against_four);
     w.member("at_most_a_quarter", claim.quarter).member("better_than_4_times", claim.beats_four);
     w.member("why", claim.why).close();
+  }
+  w.close().key("threads").open_list();
+  for (const ThreadRow& row : result.thread_rows) {
+    w.open_object().member("look", row.look).member("family", row.warp ? "warp" : "weft");
+    w.member("volume_azimuth", row.azimuth == VolumeAzimuth::flat ? "flat" : "cosine");
+    w.member("lobe_choice", row.choice == LobeChoice::half ? "half" : "weight");
+    w.key("variance_over_uniform").open_list();
+    for (size_t i = 0; i < row.ratios.size(); ++i)
+      w.open_object().member("view_deg", thread_views_deg()[i]).member("ratio", row.ratios[i]).close();
+    w.close().close();
+  }
+  w.close().key("talk_figures").open_list();
+  for (const TalkFigure& f : result.talk_figures) {
+    w.open_object().member("look", f.look).member("light", light_label(f.light)).member("bounces", f.bounces);
+    write_interval(w, "threads_over_uniform", f.threads.equal);
+    write_interval(w, "threads_over_uniform_with_4_times_the_samples", f.threads.against_four);
+    write_interval(w, "cloth_over_uniform", f.cloth.equal);
+    write_interval(w, "cloth_over_uniform_with_4_times_the_samples", f.cloth.against_four);
+    w.close();
   }
   w.close().key("scenes").open_list();
   for (int i = 0; i < int(result.scenes.size()); ++i) {

@@ -54,6 +54,7 @@ class Study {
   StudyResult run() {
     const double cpu_start = cpu_seconds();
     plan();
+    read_threads();
     for (int i = 0; i < int(result_.scenes.size()) && !clock_.stopped(); ++i) measure(i);
     if (result_.settings.pictures && !clock_.stopped()) take_pictures();
     result_.interrupted = clock_.stopped();
@@ -69,6 +70,24 @@ class Study {
     settings.environment = s.light == white_light ? s.light : study_map(s.light);
     settings.threads = result_.settings.threads;
     return settings;
+  }
+
+  // The talk in its own terms: seconds, whatever the study covers.
+  void read_threads() {
+    const StudySettings& s = result_.settings;
+    TalkFigureSettings figures;
+    figures.looks.assign(s.looks.begin(),
+                         s.looks.begin() + std::min<std::ptrdiff_t>(ladder_looks, std::ssize(s.looks)));
+    figures.seeds = std::max(8, s.seeds);  // cheap, and uniform directions seldom meet the highlight
+    figures.columns = figures.rows = std::clamp(s.scene.width / 2, 16, 96);
+    figures.threads = s.threads;
+    tell("single threads");
+    result_.thread_rows = thread_rows(figures.looks);
+    result_.talk_figures = talk_figures(
+        figures, colors_, [this] { tell("the talk's figures"); }, clock_.interrupt());
+    if (s.pictures && !clock_.stopped())
+      result_.thread_pictures =
+          thread_pictures(figures.looks[0], std::min(160, 2 * figures.columns), 16, s.threads, colors_);
   }
 
   void plan() {
@@ -182,7 +201,7 @@ class Study {
     const Film truth =
         render_film(scene, LightSettings().strategy, s.reference_samples, reference_seed, s.bounces, ignored);
     if (clock_.stopped()) return;
-    const Reference reference = make_reference(truth, s.reference_samples);
+    const Reference reference = make_reference(truth, s.reference_samples, error_floor_at(double(report.metered_ev)));
     s.reference_error = reference.own;
     clock_.done(reference_units(at_equal_time));
 

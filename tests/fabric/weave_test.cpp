@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "fabric/cloth.h"
 #include "fabric/tangent_terms.h"
 
@@ -79,8 +81,7 @@ TEST(Yarns, AreAsWideAsTheCoverageOfTheirPlaceAsks) {
     look.warp.coverage = 0.35f;
     look.weft.coverage = 0.25f;
     const Weave weave = compile_weave(look);
-    for (const auto& covered :
-         {std::pair(0.35, 0.25), {0.1, 0.2}, {0.6, 0.4}, {0.0, 0.5}, {0.9, 0.6}, {0.0, 0.0}}) {
+    for (const auto& covered : {std::pair(0.35, 0.25), {0.1, 0.2}, {0.6, 0.4}, {0.0, 0.5}, {0.9, 0.6}, {0.0, 0.0}}) {
       const double warp = covered.first, weft = covered.second;
       const auto share = shares_of(weave, [&](double x, double y) {
         const YarnPlace place = yarn_at(weave, {warp, weft}, x, y);
@@ -282,6 +283,35 @@ TEST(Gaps, PassEverythingOrNothingFromNearAndTheirShareFromFar) {
   EXPECT_EQ(passing(0.2f, {1, -1, 0, 0, 0, 0, 0}), 1.0f);
   EXPECT_EQ(passing(0.2f, {1, 0, 0, 0, 0, 0, 0}), 0.0f);
   EXPECT_NEAR(passing(0.2f, {0.5f, -1, 0, 0, 0, 0, 0}), 0.6f, 1e-6);
+}
+
+TEST(Yarns, OfLongFloatsKnowTheirPlaceBetweenTheFloatsEnds) {
+  // Warp end 0 is never covered, end 1 by the picks 5 and 1500 alone.
+  const int picks = 2000;
+  Look look = woven(all_looks().front(), "plain");
+  look.weave.draft.clear();
+  for (int row = 0; row < picks; ++row) {
+    const int pick = picks - 1 - row;
+    look.weave.draft.push_back(std::string(pick % 2 ? "x." : ".x") + (pick == 5 || pick == 1500 ? "." : "x") + "x");
+  }
+  look.warp.coverage = 0.6f;
+  look.weft.coverage = 0.3f;
+  look.warp.offsets_deg = {-30, 30};
+  look.warp.lengths = {1};
+  const Weave weave = compile_weave(look);
+  const auto offset_deg = [&](double along, int end) {
+    const YarnPlace place = yarn_at(weave, along * weave.weft_spacing, (end + 0.5) * weave.warp_spacing);
+    EXPECT_EQ(place.family, 0);
+    return double(place.offset) * 180 / std::numbers::pi;
+  };
+  const auto expected = [](double share) { return -30 + 60 * (1 - share); };
+  const double margin = (1 - weave.widths.weft) / 2, from = 6 - margin, to = 1500 + margin;
+  for (const double share : {0.02, 0.3, 0.5, 0.97}) {
+    EXPECT_NEAR(offset_deg(from + share * (to - from), 1), expected(share), 1e-3);
+    EXPECT_NEAR(offset_deg(picks + from + share * (to - from), 1), expected(share), 1e-3);
+    EXPECT_NEAR(offset_deg(share * picks, 0), expected(share), 1e-3);
+    EXPECT_NEAR(offset_deg(share * picks - picks, 0), expected(share), 1e-3);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "image/alpha.h"
 #include "image/chromaticities.h"
 #include "image/file.h"
+#include "image/made_files.h"
 #include "image/made_pictures.h"
 #include "image/scratch_folder.h"
 
@@ -83,6 +84,28 @@ TEST(Orientation, OfJpegFilesIsObeyed) {
         found += char('a' + int(std::lround((read.at(x, y)[0] - 0.1f) / 0.15f)));
     }
     EXPECT_EQ(found, shown[orientation]) << orientation;
+  }
+}
+
+// The slow axis first: "+X 3 -Y 2" has the columns of the picture as its lines, the left one first, each from the
+// top.
+TEST(Orientation, OfRadianceFilesIsObeyed) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path / "turned.hdr";
+  // As they are stored, in two lines of three or three lines of two.
+  for (const auto& [resolution, expected] : {std::pair("-Y 2 +X 3", "abc/def"),
+                                             {"-Y 2 -X 3", "cba/fed"},
+                                             {"+Y 2 -X 3", "fed/cba"},
+                                             {"+Y 2 +X 3", "def/abc"},
+                                             {"+X 2 -Y 3", "ad/be/cf"},
+                                             {"-X 2 -Y 3", "da/eb/fc"},
+                                             {"-X 2 +Y 3", "fc/eb/da"},
+                                             {"+X 2 +Y 3", "cf/be/ad"}}) {
+    std::string file = std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + resolution + "\n";
+    for (const char letter : std::string("abcdef")) file += std::string(3, letter) + char(136);
+    write_bytes(path, file);
+    const Image image = read_image(path);
+    EXPECT_EQ(as_letters(image), expected) << resolution;
   }
 }
 

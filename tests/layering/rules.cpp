@@ -131,7 +131,7 @@ const std::vector<OutsideLibrary>& outside_libraries() {
   static const std::vector<OutsideLibrary> all{
       {"Embree", {"embree"}, {"lib/scene/ray_tracer.cpp"}},
       {"OpenSubdiv", {"opensubdiv/"}, {"lib/mesh/"}},
-      {"OpenColorIO", {"OpenColorIO/"}, {"lib/image/color.cpp"}},
+      {"OpenColorIO", {"OpenColorIO/"}, {"lib/image/color_config.h"}},
       {"OpenImageIO", {"OpenImageIO/"}, {"lib/image/"}},
       {"OpenEXR", {"OpenEXR/", "Imf", "Iex"}, {"lib/image/"}},
       {"nlohmann json", {"nlohmann/"}, {"lib/look/json.cpp"}},

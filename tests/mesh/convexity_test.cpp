@@ -94,7 +94,7 @@ TEST(MeshForm, AQuadThatIsTwistedIntoAValleyIsNotTakenForAConvexOne) {
   Mesh mesh = box({1, 1, 1});
   const Vec3 corner = mesh.positions[mesh.quads[4][1]];
   for (Vec3& p : mesh.positions)
-    if (p == corner) p.z -= 0.4f;
+    if (p == corner) p.z -= 0.8f;
   EXPECT_EQ(mesh_form(mesh), MeshForm::folded);
 }
 

@@ -76,6 +76,24 @@ TEST(Manifolds, ABooksSpineStaysOneSmoothCurveWithoutACrack) {
   EXPECT_EQ(threefold, 17);
 }
 
+TEST(Manifolds, NoCutLeavesACrack) {
+  // A cage's vertices are a thousandth apart or in one place: what lies closer was cut, and must be in one place too.
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const ControlMesh cage = parse_obj(i == 0 ? torture::fan(50, 7) : torture::random_mesh(i), "random");
+    if (!cut_into_manifolds(cage)) continue;
+    const Mesh mesh = subdivide(cage, 1);
+    const Vec3 size = mesh.bounds_max - mesh.bounds_min;
+    const float close = 4e-7f * std::max({size.x, size.y, size.z});
+    int cracks = 0;
+    for (size_t a = 0; mesh.refined && a < mesh.positions.size(); ++a)
+      for (size_t b = a + 1; b < mesh.positions.size(); ++b) {
+        const float distance = (mesh.positions[a] - mesh.positions[b]).length();
+        cracks += distance > 0 && distance < close;
+      }
+    EXPECT_EQ(cracks, 0) << i;
+  }
+}
+
 TEST(Manifolds, WhatWasCutIsTold) {
   const Mesh mesh = subdivide(parse_obj(torture::fan(12, 3), "fan.obj"), 1);
   EXPECT_TRUE(mesh.refined);

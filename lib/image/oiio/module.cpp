@@ -60,8 +60,11 @@ void seek_flat_part(OIIO::ImageInput& input, const fs::path& path) {
   refuse(path, "holds deep pixels only, expected a part with flat ones", "flatten it first");
 }
 
-int orientation_of(const OIIO::ImageSpec& spec) {
-  return spec.get_int_attribute("Orientation", 1);
+int orientation_of(const OIIO::ImageInput& input) {
+  const int said = input.spec().get_int_attribute("Orientation", 1);
+  // The library names the two quarter turns of Radiance files (-X -Y and +X +Y) the wrong way round.
+  if ((said == 6 || said == 8) && std::string(input.format_name()) == "hdr") return 14 - said;
+  return said;
 }
 
 ImageFileInfo info_of(const OIIO::ImageInput& input) {
@@ -69,7 +72,7 @@ ImageFileInfo info_of(const OIIO::ImageInput& input) {
   ImageFileInfo info;
   info.width = spec.full_width > 0 ? spec.full_width : spec.width;
   info.height = spec.full_height > 0 ? spec.full_height : spec.height;
-  if (const int orientation = orientation_of(spec); orientation >= 5 && orientation <= 8)
+  if (const int orientation = orientation_of(input); orientation >= 5 && orientation <= 8)
     std::swap(info.width, info.height);
   info.channels = spec.nchannels;
   // A picture of one channel is numbers, whatever the channel is called.
@@ -135,7 +138,7 @@ Image read_pixels(const fs::path& path, const ImageLimits& limits, ImageFileInfo
   std::string error;
   if (!read_pixels(*input, OIIO::TypeDesc::FLOAT, image.pixels, error))
     refuse(path, "its pixels cannot be read: the file is damaged or cut short" + because(error));
-  return apply_orientation(place(std::move(image), spec), orientation_of(spec));
+  return apply_orientation(place(std::move(image), spec), orientation_of(*input));
 }
 
 Attributes read_texts(const fs::path& path) {
