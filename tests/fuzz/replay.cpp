@@ -40,7 +40,9 @@ TEST(FuzzCorpus, IsTakenByItsTargetsWithoutAFault) {
     char* words[] = {program.data(), nullptr};
     char** argv = words;
     int argc = 1;
-    if (target.initialize) ASSERT_EQ(target.initialize(&argc, &argv), 0);
+    if (target.initialize) {
+      ASSERT_EQ(target.initialize(&argc, &argv), 0);
+    }
     for (const std::string& name : names_in(corpus / target.name)) {
       const fs::path path = corpus / target.name / name;
       std::ifstream file(path, std::ios::binary);
