@@ -13,15 +13,19 @@ namespace {
 
 constexpr int pilot_samples = 16;
 
-CandidateTrial try_candidates(const Scene& scene, LightSettings light, const CandidateCounts& candidates,
-                              double error_floor, std::uint32_t seed, int threads) {
+/// Adds a trial; the errors of all become those that they show together.
+void try_candidates(const Scene& scene, LightSettings light, const CandidateCounts& candidates, double error_floor,
+                    std::uint32_t seed, int threads, std::vector<CandidateTrial>& trials,
+                    std::vector<GridPicture>& pictures) {
   PixelGrid grid;
   grid.samples = pilot_samples;
   light.candidates = candidates;
   light.bounces = 0;
-  const GridPicture picture = trace_picture(scene, light, seed, grid, threads);
-  return {candidates, relative_variance(picture, error_floor),
-          1e9 * direct_time(picture.work.rays, light) / (double(grid.pixels()) * grid.samples)};
+  pictures.push_back(trace_picture(scene, light, seed, grid, threads));
+  const double rays = direct_time(pictures.back().work.rays, light);
+  trials.push_back({candidates, 0, 1e9 * rays / (double(grid.pixels()) * grid.samples)});
+  for (size_t k = 0; k < trials.size(); ++k)
+    trials[k].squared_error = relative_variance(pictures[k], pictures, error_floor);
 }
 
 }  // namespace
@@ -34,10 +38,11 @@ CandidateChoice choose_candidates(const Scene& scene, const LightSettings& light
                                   std::uint32_t seed, int threads) {
   CandidateChoice choice;
   std::vector<CandidateTrial>& trials = choice.trials;
+  std::vector<GridPicture> pictures;
   size_t least = 0;
   const auto best = [&] { return trials[least].candidates; };
   const auto gains = [&](const CandidateCounts& candidates) {
-    trials.push_back(try_candidates(scene, light, candidates, error_floor, seed, threads));
+    try_candidates(scene, light, candidates, error_floor, seed, threads, trials, pictures);
     if (trials.size() > 1 && !(trials.back().price() < trials[least].price())) return false;
     least = trials.size() - 1;
     return true;

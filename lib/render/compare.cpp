@@ -52,11 +52,20 @@ std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& w
 }
 
 double relative_variance(const GridPicture& picture, double error_floor) {
+  return relative_variance(picture, {&picture, 1}, error_floor);
+}
+
+double relative_variance(const GridPicture& picture, std::span<const GridPicture> judges, double error_floor) {
   double sum = 0, weights = 0;
-  for (const FilmPixel& pixel : picture.pixels) {
-    const double alpha = pixel_coverage(pixel);
-    sum += alpha * relative_square(Vec3d(pixel_variance(pixel)), Vec3d(pixel_mean(pixel)), error_floor);
-    weights += alpha;
+  for (size_t i = 0; i < picture.pixels.size(); ++i) {
+    double coverage = 0;
+    Vec3d value(0);
+    for (const GridPicture& judge : judges) {
+      coverage += pixel_coverage(judge.pixels[i]) / double(judges.size());
+      value += Vec3d(pixel_mean(judge.pixels[i])) / double(judges.size());
+    }
+    sum += coverage * relative_square(pixel_variance(picture.pixels[i]), value, error_floor);
+    weights += coverage;
   }
   return weights > 0 ? sum / weights : 0;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "image/image.h"
@@ -29,6 +30,9 @@ std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& w
 
 /// Mean of the pixels' variance over what is rendered, relative as in E: E^2 of such a picture. 0 of nothing.
 double relative_variance(const GridPicture& picture, double error_floor);
+/// The same, relative to what `judges` show together: pictures of one scene and grid that are compared are judged
+/// alike, and one that came out too bright does not excuse itself.
+double relative_variance(const GridPicture& picture, std::span<const GridPicture> judges, double error_floor);
 
 /// Premultiplied RGBA, working space.
 Image grid_image(const GridPicture& picture);

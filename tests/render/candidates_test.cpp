@@ -45,8 +45,8 @@ TEST(Candidates, PilotPredictsTheErrorOfThePicture) {
   }
 }
 
-CandidateCounts chosen(const char* look, const char* map) {
-  return choose_candidates(lit_scene(look, map, 240, 135), {}, default_error_floor, 1, 2).candidates;
+CandidateCounts chosen(const char* look, const char* map, std::uint32_t seed = 1) {
+  return choose_candidates(lit_scene(look, map, 240, 135), {}, default_error_floor, seed, 2).candidates;
 }
 
 // Measured on whole pictures at equal time (docs/numbers.md), E^2 over that of eight of each kind: satin among soft
@@ -55,7 +55,11 @@ CandidateCounts chosen(const char* look, const char* map) {
 TEST(Candidates, ThatAreKnownToWinAreTaken) {
   EXPECT_EQ(chosen("polyester_satin_charmeuse", "studio_softboxes").map, 16);
   EXPECT_EQ(chosen("velvet", "low_sun").map, 4);
-  EXPECT_LT(chosen("velvet", "low_sun").table, 8);
+  // Eight of the table have 1.1 there, which is as much as the pilot is unsure of: it may be wrong once in five
+  // seeds.
+  int fewer = 0;
+  for (std::uint32_t seed = 1; seed <= 5; ++seed) fewer += chosen("velvet", "low_sun", seed).table < 8;
+  EXPECT_GE(fewer, 4);
 }
 
 TEST(Candidates, OfAMapWithoutLightsAreTheTablesAlone) {
