@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file_identity.h"
+#include "image/exr_header.h"
 #include "image/oiio/functions.h"
 #include "image/plain_exr.h"
 #include "image/radiance.h"
@@ -64,11 +65,13 @@ Image read_radiance(const fs::path& path, const ImageLimits& limits, ImageFileIn
 }  // namespace
 
 ImageFileInfo read_image_info(const fs::path& path) {
+  check_exr_header(path);
   return image_file_functions().read_info(path);
 }
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
   note_file_read(path);
+  check_exr_header(path);
   if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
   if (is_radiance(path)) return read_radiance(path, limits, info);
   return image_file_functions().read_pixels(path, limits, info);

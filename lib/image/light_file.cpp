@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "image/exr_header.h"
 #include "image/exr_light.h"
 #include "image/file.h"
 #include "image/oiio/functions.h"
@@ -65,7 +66,10 @@ std::string first_bytes(const fs::path& path, size_t count) {
 
 std::unique_ptr<LightFile> open_light_file(const fs::path& path, const std::string& layer,
                                            const ImageLimits& limits) {
-  if (is_exr_file(path)) return open_exr_light(path, layer, limits);
+  if (is_exr_file(path)) {
+    check_exr_header(path);
+    return open_exr_light(path, layer, limits);
+  }
   if (!layer.empty())
     refuse_picture(path, fmt::format("has no layers, and \"{:.60}\" was asked for", layer),
                    "--env-layer is for OpenEXR files");

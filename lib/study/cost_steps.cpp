@@ -45,7 +45,9 @@ CostSteps bounces(const CostBase& base) {
 
 CostSteps strategies(const CostBase& base) {
   CostSteps made{{"strategy"}, {}};
-  made.list.biased = made.list.has_finest = false;
+  // Not advised: strategies of one picture differ by less than a few short renders tell, and advice would flip by
+  // seed.
+  made.list.biased = made.list.has_finest = made.list.advised = false;
   made.list.note = "all converge to the same picture: true error squared times time decides";
   for (const std::string& name : strategy_names()) {
     LightSettings light = base.light;

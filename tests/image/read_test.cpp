@@ -3,9 +3,11 @@
 #include <sys/stat.h>
 
 #include <cmath>
+#include <fstream>
 #include <random>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "image/chromaticities.h"
 #include "image/file.h"
 #include "image/made_files.h"
@@ -49,6 +51,19 @@ TEST(ReadImage, PlacesADataWindowInItsDisplayWindow) {
         EXPECT_EQ(image.at(x, y)[2], inside ? 2.0f : 0.0f);
       }
   }
+}
+
+// OpenEXR fills what an attribute claims to hold before it looks whether the file holds it: half a minute.
+TEST(ReadImage, RefusesAnAttributeThatClaimsMoreThanTheFileHolds) {
+  const ScratchFolder folder;
+  const fs::path path = folder.path / "claims.exr";
+  write_windowed_exr(path, 16, 12, 0, 0, 16, 12);
+  std::string bytes = read_text_file(path, 1 << 20);
+  const size_t size_at = bytes.find("compression") + std::string("compression").size() + 1 + sizeof "compression";
+  ASSERT_EQ(bytes.substr(size_at, 4), std::string("\1\0\0\0", 4));
+  bytes.replace(size_at, 4, "\xff\xff\xff\x7f");
+  std::ofstream(path, std::ios::binary) << bytes;
+  EXPECT_TRUE(begins_with(refusal(path), "its attribute compression claims 2147483647 bytes")) << refusal(path);
 }
 
 TEST(ReadImage, TakesTheFullResolutionOfTiledAndMipMappedFiles) {
