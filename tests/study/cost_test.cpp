@@ -93,7 +93,9 @@ Interval measured(Dice& dice, double truth, double scatter) {
 
 CostResult noisy_cost(Dice& dice, double scatter) {
   CostResult result = made_cost();
-  for (CostPoint& p : result.points) p.noise = measured(dice, p.noise.value, scatter / 3);
+  // Noise and biases below stand to each other and to the named qualities as on the default scene.
+  constexpr double scale = 1.8;
+  for (CostPoint& p : result.points) p.noise = measured(dice, scale * p.noise.value, scatter / 3);
   result.lists.clear();
   struct Truth {
     double time, noise, bias;
@@ -109,7 +111,7 @@ CostResult noisy_cost(Dice& dice, double scatter) {
         for (int k = 0; k < 3; ++k) times.back().push_back(truths[i].time * std::exp(scatter * dice.normal()));
       }
       if (!p.asked) p.noise_factor = measured(dice, truths[i].noise, scatter / 3);
-      const double bias = std::max(truths[i].bias + 0.001 * dice.normal() * (truths[i].bias > 0 ? 1 : 0), 0.0);
+      const double bias = scale * std::max(truths[i].bias + 0.001 * dice.normal() * (truths[i].bias > 0 ? 1 : 0), 0.0);
       p.bias = {{bias, std::max(bias - 0.002, 0.0), bias > 0 ? bias + 0.002 : 0}, 5};
       made.prices.push_back(p);
     }
