@@ -99,23 +99,17 @@ class CostMeasurement {
     if (!albedo.empty()) result_.start.albedo_table = repeated_interval(albedo);
     small_ = s.scene;
     small_.level = report.level;
-    small_.width = result_.width;
-    small_.height = result_.height;
+    small_.width = result_.width, small_.height = result_.height;
     frame_small(scene_);
-    plan_work();
+    // In samples a pixel, roughly.
+    constexpr double steps = 45;
+    clock_.plan(s.seeds * 2.0 * s.most_samples + 2.0 * reference_factor * s.most_samples +
+                s.price_samples * s.seeds * steps + s.seeds * 6.0 * s.most_samples);
   }
 
   void frame_small(Scene& scene) const {
     scene.camera = frame_points(scene.mesh->positions, small_.camera, small_.width, small_.height);
     if (scene.ground || scene.lens) set_stage(scene, small_.stage, result_.settings.threads);
-  }
-
-  // In samples a pixel, roughly.
-  void plan_work() {
-    constexpr double steps = 45;
-    const CostSettings& s = result_.settings;
-    clock_.plan(s.seeds * 2.0 * s.most_samples + 2.0 * reference_factor * s.most_samples +
-                s.price_samples * s.seeds * steps + s.seeds * 6.0 * s.most_samples);
   }
 
   void tell(const std::string& doing) {

@@ -199,6 +199,7 @@ Film noisy_film(double half, std::uint64_t state) {
     for (Vec3d& sum : pixel.beauty)
       for (int c = 0; c < 3; ++c) sum[c] = 0.5 + half * (2 * random(state) - 1);
     pixel.samples = replicates;
+    pixel.coverage = {1, 1, 1, 1};
   }
   return film;
 }
