@@ -76,7 +76,9 @@ void check_picture_memory(const PictureFlags& f, bool with_layers, bool film_the
   for (const std::string& output : f.outputs)
     if (!is_exr(output)) load_display_writer();
   const MemoryRoom room = memory_room();
-  const std::int64_t bytes = picture_bytes(size) - (film_there ? film_bytes(size) : 0);
+  // The bill's pictures, and the display's colours that they are shown in: most of it where nothing else is.
+  const std::int64_t bill = f.bill || !f.stats.empty() ? std::int64_t(16) << 20 : 0;
+  const std::int64_t bytes = picture_bytes(size) + bill - (film_there ? film_bytes(size) : 0);
   const MemoryUse use = memory_use();
   print_detail(fmt::format("memory: {} now, {} at most so far, {} foreseen", memory_text(use.resident),
                            memory_text(use.peak), memory_text(std::max(use.resident + bytes, use.peak))));

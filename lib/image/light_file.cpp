@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/file_identity.h"
 #include "image/exr_header.h"
 #include "image/exr_light.h"
 #include "image/file.h"
@@ -66,6 +67,7 @@ std::string first_bytes(const fs::path& path, size_t count) {
 
 std::unique_ptr<LightFile> open_light_file(const fs::path& path, const std::string& layer,
                                            const ImageLimits& limits) {
+  note_file_read(path);
   if (is_exr_file(path)) {
     check_exr_header(path);
     return open_exr_light(path, layer, limits);

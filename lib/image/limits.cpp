@@ -46,7 +46,7 @@ void check_image_size(const std::filesystem::path& path, const std::string& what
   const double gibibytes = double(width) * double(height) * double(pixel) / 0x1p30;
   const auto help = [&] {
     return fmt::format("make it smaller{}, or raise the limit: {} {:.0f} (GiB)", otherwise, image_limit_flag,
-                       std::ceil(std::max(gibibytes, double(limits.decoded_bytes) / 0x1p30)));
+                       std::ceil(std::max(gibibytes, double(limits_in_force.decoded_bytes) / 0x1p30)));
   };
   if (width > limits.side || height > limits.side)
     refuse(path,
