@@ -63,6 +63,7 @@ struct Command::State {
   std::vector<Flag> flags;
   std::vector<std::pair<std::string, std::string>> examples;
   std::vector<std::string> long_names, words;
+  std::vector<std::string> switches{"--help"};  // flags that want no value, with their twins
   std::vector<Phrase> phrases;
   std::string argument, argument_help;
   std::vector<std::string>* arguments = nullptr;
@@ -104,6 +105,15 @@ std::vector<std::string> Command::State::settled(const std::vector<std::string>&
       fault(InputError(word.substr(0, word.size() - 1) + " is empty"));
       continue;
     }
+    // The parser would count it, or fail.
+    const size_t equals = std::min(word.find('='), word.size());
+    if (const std::string flag = word.substr(0, equals), value = word.substr(equals);
+        !value.empty() && value != "=true" && value != "=false" &&
+        std::find(switches.begin(), switches.end(), flag) != switches.end()) {
+      fault(InputError(
+          fmt::format("{} is {}, expected no value, or true or false", flag, shown_name(value.substr(1)))));
+      continue;
+    }
     out.push_back(word);
     for (const Phrase& phrase : phrases) {
       if (!is_flag(word, phrase.names)) continue;
@@ -141,6 +151,7 @@ void Command::flag(const std::string& names, bool& to, const std::string& help) 
   const std::string no = "--no-" + long_name(names).substr(2);
   state_->add(names, "", help);
   state_->long_names.push_back(no);
+  state_->switches.insert(state_->switches.end(), {long_name(names), no});
   state_->app.add_flag_function(names + ",!" + no, [&to](std::int64_t count) { to = count > 0; });
 }
 

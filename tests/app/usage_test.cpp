@@ -48,6 +48,13 @@ TEST(Usage, AnUnknownQualityIsAnsweredWithTheNearestOne) {
                  "error: there is no quality fnial\n  help: did you mean final?\n");
 }
 
+TEST(Usage, ASwitchWithAValueOfItsOwnSaysThatItWantsNone) {
+  for (const std::string flag : {"--adaptive", "--no-adaptive", "--help"})
+    for (const std::string value : {"draft", "2", "99999999999999999999", "-9223372036854775808"})
+      expect_refused(run_sateen({"render", "--dry-run", flag + "=" + value}), 2,
+                     "error: " + flag + " is " + value + ", expected no value, or true or false\n" + render_usage);
+}
+
 TEST(Usage, AFlagWithoutItsValueSaysWhatItWants) {
   expect_refused(run_sateen({"render", "--look"}), 2, "error: --look wants its value: NAME|FILE\n" + render_usage);
 }
