@@ -66,6 +66,10 @@ std::string reason_text(const StopRules& stop, const RenderResult& result) {
       if (stop.spp > 0) return fmt::format("stopped by time ({}) before {} samples a pixel", time, stop.spp);
       return fmt::format("stopped by time ({})", time);
     }
+    case StopReason::rare:
+      return fmt::format("stopped before the error fell to {}: what few pixels met makes it, and more samples do not "
+                         "lower it; a small light that is far brighter than all else does that, or cloth like a mirror",
+                         stop.error);
     case StopReason::interrupted:
       break;
   }

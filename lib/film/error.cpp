@@ -7,7 +7,7 @@ namespace sateen {
 
 namespace {
 
-constexpr double unsure_factor = 1.5;
+constexpr double unsure_factor = 1.5, most_unsure = 20;
 // Share of the covered cells that E comes from where it rests on rare samples.
 constexpr double few_cells = 0.01;
 
@@ -89,14 +89,16 @@ PictureError picture_error(const Film& film, const std::vector<PixelError>& erro
   // The estimate scatters by `spread`; what the picture really is off by scatters by up to three times that (of a
   // normal deviate's square the variance is 2, of the mean of three 2/3). Logarithms: sums of squares are skew.
   const double cells = spread_squares > 0 ? spread * spread / spread_squares : 1e9;
-  const double chance = student_95(3 * cells) * std::sqrt(4 * spread) / total / 2;
+  const double student = student_95(3 * cells);
+  const double chance = student * std::sqrt(4 * spread) / total / 2;
   // Few samples are not sure of what the variances are divided by: E scatters from scene to scene about as far as
   // that would move it.
-  const double unsure = unsure_factor * std::log(std::max(at_most / total, 1.0)) / 2;
+  const double unsure = unsure_factor * std::log(std::clamp(at_most / total, 1.0, most_unsure)) / 2;
   const double half = std::hypot(chance, unsure);
   result.low = result.error * std::exp(-half);
-  result.high = result.error * std::exp(half);
-  result.rests_on_rare_samples = cells < few_cells * std::min(covered_cells, 10000.0) && half > 0.1;
+  // However few pixels it is: of a single one the real error over the stated is a Student's t.
+  result.high = result.error * std::exp(std::hypot(std::min(chance, std::log(student)), unsure));
+  result.rests_on_rare_samples = cells < std::max(few_cells * std::min(covered_cells, 10000.0), 2.5) && half > 0.1;
   return result;
 }
 

@@ -8,6 +8,7 @@ namespace sateen {
 
 namespace {
 
+constexpr double most_calmer = 25;                       // that a pixel may be than its neighbours, by variance
 constexpr double mid_grey = 0.18 / default_error_floor;  // of the floor: both count on the display
 
 /// A pixel's replicates: their means, how many samples each holds, and the sum of their coverage.
@@ -79,7 +80,9 @@ PixelError error_of(const FilmPixel& pixel, const Surroundings& s, size_t i, dou
   if (pixel.samples < 2) return e;
   e.known = true;
   e.coverage = float(pixel_coverage(pixel));
-  const Replicates r(laid_over(pixel, backing));
+  const FilmPixel over = laid_over(pixel, backing);
+  const Replicates r(over);
+  const Vec3d own_variance = pixel_variance(over) * double(over.samples);
   const auto n = double(pixel.samples);
   const Vec3d prior = s.spread[i] + s.mean_variance[i];
   for (size_t a = 1; a < size_t(r.used); ++a)
@@ -100,7 +103,9 @@ PixelError error_of(const FilmPixel& pixel, const Surroundings& s, size_t i, dou
         double value = s.mean[i][c], unsure = prior[c] / 2;
         if (count > 0) {
           // Two independent accounts of one value: the better known counts for more.
-          const double own = s.sample_variance[i][c] / count, both = prior[c] + own;
+          // Beside a sun's reflection neighbours know nothing of a pixel's noise.
+          const double own = std::min(s.sample_variance[i][c], most_calmer * own_variance[c]) / count;
+          const double both = prior[c] + own;
           const double trust = both > 0 ? prior[c] / both : 1;
           value += trust * (others[c] / count - value);
           unsure = trust * own;

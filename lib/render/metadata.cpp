@@ -36,6 +36,8 @@ std::string stop_reason_text(StopReason reason) {
       return "error";
     case StopReason::time:
       return "time";
+    case StopReason::rare:
+      return "rare samples";
     case StopReason::interrupted:
       break;
   }

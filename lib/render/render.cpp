@@ -49,6 +49,13 @@ int next_whole(int samples) {
   return (samples / replicates + 1) * replicates;
 }
 
+/// Over the pixels that have some: of a pass that was cut off a part.
+double mean_samples(const Film& film) {
+  double sum = 0, pixels = 0;
+  for (const FilmPixel& pixel : film.pixels) sum += double(pixel.samples), pixels += pixel.samples > 0;
+  return pixels > 0 ? sum / pixels : 0;
+}
+
 /// One call of render(): clocks, what is told, and where the next pass ends.
 struct Run {
   const RenderSettings& settings;
@@ -119,7 +126,10 @@ struct Run {
 
   /// Mean samples at the end of the next pass; where the course already is when time is up.
   int next_end(const Film& film) {
-    int end = course.samples == 0 ? 1 : course.barrier;  // a first complete picture at once
+    // A first complete picture at once, then twice as many, so that a signal finds an even one.
+    int end = course.samples == 0   ? 1
+              : course.past.empty() ? std::min(2 * course.samples, course.barrier)
+                                    : course.barrier;
     if (looks_early()) end = std::min(end, course.samples == 0 ? 1 : next_whole(course.samples));
     if (settings.stop.spp > 0) end = std::min(end, settings.stop.spp);
     if (settings.stop.seconds > 0 && course.samples > first_samples) {
@@ -128,14 +138,24 @@ struct Run {
       begin_pass(film, end);
       const double each = std::max(per_work(work) * next_work, 1e-9);
       const double fits = time_left() / each;
-      // What does not fit whole is begun all the same and cut off.
-      end = std::min(end, course.samples + int(std::clamp(fits, 1.0, 1e8)));
+      // Half of what seems to fit, for the machine may get busier; of the last samples one is cut off.
+      end = std::min(end, course.samples + int(std::clamp(fits / 2, 1.0, 1e8)));
     }
     return end;
   }
 
   bool is_met(const PictureError& error) const {
     return settings.stop.error > 0 && error.known && error.high <= settings.stop.error;
+  }
+
+  /// An error that few pixels make and that four times the samples did not lower.
+  bool is_hopeless() const {
+    constexpr double least = 1024, lower = 0.8;
+    if (settings.stop.error <= 0 || course.samples < least || !state.error.rests_on_rare_samples) return false;
+    const ErrorPoint* then = nullptr;
+    for (const ErrorPoint& p : course.past)
+      if (p.samples <= course.samples / 4) then = &p;
+    return then && state.error.error > lower * then->error;
   }
 
   void measure(const Film& film) {
@@ -207,7 +227,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
   const auto sum_up = [&](StopReason reason) {
     run.clock();
     result.reason = reason;
-    result.samples = course.samples;
+    result.samples = std::max(course.samples, int(mean_samples(film)));
     run.measure(film);
     result.error = run.state.error;
     result.deviation = deviation_of_share(film, run.errors);
@@ -232,6 +252,7 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
     if (course.samples >= course.barrier) {
       const double look_began = now();
       if (run.look(film)) return sum_up(StopReason::error);
+      if (run.is_hopeless()) return sum_up(StopReason::rare);
       // What was asked for may have been reached before this run began.
       if (settings.stop.spp <= 0 || course.samples < settings.stop.spp) {
         course.barrier = next_barrier(course.samples);

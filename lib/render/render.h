@@ -55,7 +55,8 @@ struct RenderState {
   Promise promise;                        ///< once it is made
 };
 
-enum class StopReason { samples, error, time, interrupted };
+enum class StopReason { samples, error, time, interrupted, rare };
+// rare: the error asked for rests on rare samples and does not fall
 
 struct RenderResult {
   StopReason reason = StopReason::samples;

@@ -83,7 +83,7 @@ class CostMeasurement {
     most_bounces_ = finest.bounces;
     result_.effects_flags = effects_flags_of(finest, plan(0), effects_);
     std::vector<double> assembly, pilots, albedo;
-    for (int k = 0; k < s.seeds && !clock_.stopped(); ++k) {
+    for (int k = 0; k < s.seeds && (k == 0 || !clock_.stopped()); ++k) {
       RenderStart start = start_render(s.scene, effects_, s.light, result_.error_floor, s.seed, s.threads, colors_);
       assembly.push_back(start.assembly_seconds);
       pilots.push_back(start.pilot_seconds);

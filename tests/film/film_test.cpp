@@ -219,7 +219,8 @@ TEST(PictureError, IsTheRealOneWhereFewSamplesCarryTheLight) {
         inside += e.low <= off && off <= e.high;
       }
       // Where not even the neighbours have seen one it is too large rather than too small.
-      EXPECT_NEAR(claimed / real, 1, samples * chance < 0.2 ? 0.3 : 0.1) << samples << " samples, one in " << 1 / chance;
+      EXPECT_NEAR(claimed / real, 1, samples * chance < 0.2 ? 0.3 : 0.1)
+          << samples << " samples, one in " << 1 / chance;
       EXPECT_GE(inside, 36) << samples << " samples, one in " << 1 / chance;
     }
 }
@@ -276,6 +277,28 @@ TEST(PictureError, IsFiniteUnderASunOfAnyStrength) {
     for (const ImageLayer& layer : develop_layers(film))
       for (const float v : layer.image.pixels) ASSERT_TRUE(std::isfinite(v)) << light << " " << layer.name;
   }
+}
+
+// One pixel that carries all of it: what it is off by over what it says is a Student's t of 3 degrees of freedom, and
+// the interval's end its 97.5 % point, 3.18. Of 2,000 pixels 95 % +- 1.5 lie below.
+TEST(PictureError, OfOnePixelEndsWhereStudentsTDoes) {
+  std::mt19937 random(31);
+  std::normal_distribution<double> normal;
+  int below = 0;
+  for (int run = 0; run < 2000; ++run) {
+    Film film = noisy_film(16, 16, random, [](int, int) { return Noise{1, 0}; });
+    Vec3d sum(0);
+    for (Vec3d& c : film.pixels[100].beauty) {
+      c = Vec3d(1 + 0.2 * normal(random));
+      sum += c;
+    }
+    const PictureError e = picture_error(film, ErrorScale());
+    const double real = std::abs(sum.x / 4 - 1) / std::sqrt(1.01) / 16;
+    below += real <= e.high;
+    EXPECT_LT(e.high / e.error, 4);
+    EXPECT_TRUE(e.rests_on_rare_samples);
+  }
+  EXPECT_NEAR(below, 1900, 30);
 }
 
 TEST(PictureError, HasTheSameBitsOnAnyNumberOfThreads) {
