@@ -266,6 +266,10 @@ class WifReader {
       if (r.first == 0) r.first = thread;
       r.last = thread;
     }
+    // A few that are written and idle belong to the cloth, a float at the end of the repeat; many are padding.
+    const int used = r.last - r.first + 1, before = lists.rows.empty() ? 0 : r.first - lists.rows.begin()->first;
+    if (2 * before <= used) r.first -= before;
+    if (2 * (named - r.last) <= used) r.last = named;
     int count = named;
     if (const WifEntry* e = text_.setting(section, "threads")) {
       const std::optional<int> told = integer(*e, e->value, "Threads", 1 << 24);

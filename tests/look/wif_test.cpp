@@ -219,6 +219,15 @@ TEST(Wif, ATreadleThatIsNotTiedIsNamed) {
   expect_told(warnings, "treadle 7, first used by pick 3, is tied to no shaft: it lifts nothing");
 }
 
+// The last pick of four that lifts nothing is a float of the weft, not padding.
+TEST(Wif, AnIdlePickAtTheEndOfTheRepeatIsPartOfIt) {
+  std::string text = twill_wif;
+  text.replace(text.rfind("4=4"), 3, "4=7");
+  Rows rows = rows_of(text);
+  EXPECT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows.front(), "....");
+}
+
 TEST(Wif, CountingFromZeroIsReadWhereItCanBeToldFromNoShaft) {
   const std::string head = "[WIF]\n[WEAVING]\nShafts=3\n[THREADING]\n0=";
   const std::string lifts = "[LIFTPLAN]\n0=0,1\n1=1,2\n2=2,0\n";
