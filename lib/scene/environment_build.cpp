@@ -151,7 +151,7 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
     map = std::move(colour);
   }
   Environment e = begin_environment(map.width, map.height, options);
-  RadianceMender mender(map.width, map.height);
+  RadianceMender mender(map.height);
   mender.look(map);
   mender.mend_in_file_space(map, 0);
   mender.mend_in_working_space(map, 0);

@@ -165,7 +165,7 @@ Environment read_environment(const std::string& path_or_name, const ColorManager
   Environment environment = begin_environment(width, height, build);
   environment.notes = info.notes;
   environment.doubts = info.doubts;
-  RadianceMender mender(info.width, info.height);
+  RadianceMender mender(info.height);
   EnvironmentRows rows(info.width, info.height, environment);
   EnvironmentRepairs::Kind held;
   std::string space;

@@ -10,7 +10,7 @@ namespace sateen {
 /// a colour that the working space holds. Counts what it meets.
 class RadianceMender {
  public:
-  RadianceMender(int width, int height) : width_(width), height_(height) {}
+  explicit RadianceMender(int height) : height_(height) {}
 
   /// The largest finite value of a band, where the whole map is at hand before it is mended.
   void look(const Image& band);
@@ -33,7 +33,7 @@ class RadianceMender {
   };
   void gather_spikes(const Image& band, int y);
 
-  int width_, height_;
+  int height_;
   float largest_ = 0;      ///< finite value met so far
   float infinite_is_ = 0;  ///< 0: not known yet
   double mean_ = 0;        ///< over the sphere and the channels, of the rows so far

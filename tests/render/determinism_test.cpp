@@ -133,7 +133,7 @@ TEST(SameBits, HoweverOftenStoppedAndGoneOnWith) {
     EXPECT_EQ(render(sheer_scene(), settings, often, course, {}).reason, StopReason::samples);
     settings.threads = 3;
     settings.stop.spp = 64;
-    settings.stop.error = 0.95;
+    settings.stop.error = 3.0;
     EXPECT_EQ(render(sheer_scene(), settings, often, course, {}).reason, StopReason::error);
     settings.stop.error = 0;
     std::atomic<bool> stop = false;
