@@ -140,7 +140,7 @@ TEST(SameBits, HoweverOftenStoppedAndGoneOnWith) {
     RenderHooks hooks;
     hooks.interrupt = &stop;
     int calls = 0;
-    hooks.observe = [&](const RenderState& state) { stop = state.samples >= 32 && ++calls == 2; };
+    hooks.observe = [&](const RenderState& state) { stop = state.samples >= 32 && ++calls >= 2; };
     EXPECT_EQ(render(sheer_scene(), settings, often, course, hooks).reason, StopReason::interrupted);
     EXPECT_LT(course.samples, 64);
     settings.threads = 2;
