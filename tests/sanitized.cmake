@@ -3,6 +3,7 @@
 #   many samples   statistics of thousands of renders or draws; the kept tests of the room walk the same code
 #   clock          a bar in seconds
 #   strace, kills  LeakSanitizer cannot work under a tracer, and the killed runs are the sane program's by the hundred
+#   memory         the sanitizer's own shadow and quarantine are counted with the program's
 #   install        builds and installs another copy
 # A room is never left out as a whole.
 set(sanitized_out_film
@@ -20,6 +21,7 @@ set(sanitized_out_study
   Jackknife.* Cost.ASceneIsMeasured*)                                                        # many samples
 set(sanitized_out_app
   Faults.* Kills.* Install.*                                                                 # strace, kills, install
+  Memory.*                                                                                   # memory
   Render.ASignalStopsWithin* Render.AnErrorOutOfReachInTheTime*                              # clock
   StudyCommand.Writes* CostCommand.WritesThePriceList*)                                      # many samples
 
