@@ -224,10 +224,11 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
     course.barrier = next_barrier(0);
     course.targets = allocate(film, settings.crop, course.barrier, settings.adaptive, run.scale());
   }
-  const auto sum_up = [&](StopReason reason) {
+  const auto sum_up = [&](StopReason reason, bool cut_off = false) {
     run.clock();
     result.reason = reason;
-    result.samples = std::max(course.samples, int(mean_samples(film)));
+    // Of a pass that was cut off a part counts; whole ones are counted as they were asked for.
+    result.samples = cut_off ? std::max(course.samples, int(mean_samples(film))) : course.samples;
     run.measure(film);
     result.error = run.state.error;
     result.deviation = deviation_of_share(film, run.errors);
@@ -272,11 +273,11 @@ RenderResult render(const Scene& scene, const RenderSettings& settings, Film& fi
     for (;;) {
       run.begin_pass(film, end);
       if (render_pass(scene, settings, albedo, film, course, end, stop, tell)) break;
-      if (interrupted()) return sum_up(StopReason::interrupted);
-      if (run.time_is_up()) return sum_up(StopReason::time);
+      if (interrupted()) return sum_up(StopReason::interrupted, true);
+      if (run.time_is_up()) return sum_up(StopReason::time, true);
       const bool asked = snapshot_asked();
       if (asked) *hooks.snapshot_wanted = false;
-      hooks.snapshot(sum_up(StopReason::interrupted), asked);
+      hooks.snapshot(sum_up(StopReason::interrupted, true), asked);
       run.saved = now();
     }
     course.samples = run.state.samples = end;
