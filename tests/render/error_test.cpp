@@ -34,7 +34,6 @@ struct Claims {
   Bands bands;
   std::vector<double> log_ratio;  ///< one a scene and number of samples: mean of claimed over real
   double pixels_inside = 0, pixels = 0, sentence_kept = 0, sentence_of = 0;
-  int samples_of_last = 0;
 };
 
 bool numbers_wanted() {

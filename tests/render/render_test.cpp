@@ -86,6 +86,19 @@ TEST(StopRules, TheFirstOfSeveralCounts) {
   EXPECT_GT(result.samples, 0);
 }
 
+// 24 lies between the barriers 16 and 32: pixels on the way to their targets have a few more in the mean.
+TEST(StopRules, SamplesThatAreDealtOutCountAsTheyWereAskedFor) {
+  RenderSettings settings = samples(24);
+  settings.adaptive = true;
+  Film film(48, 27, false);
+  const RenderResult result = render(scene_of(scene_settings("champagne_silk_satin", 48, 27)), settings, film);
+  EXPECT_EQ(result.reason, StopReason::samples);
+  EXPECT_EQ(result.samples, 24);
+  std::uint64_t all = 0;
+  for (const FilmPixel& pixel : film.pixels) all += pixel.samples;
+  EXPECT_GT(all, 24 * film.pixels.size());
+}
+
 TEST(StopRules, AnInterruptLeavesWholeSamples) {
   const std::atomic<bool> at_once = true;
   Film untouched(24, 16, false);
