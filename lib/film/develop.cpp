@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "film/bands.h"
 #include "film/error.h"
 
 namespace sateen {
@@ -61,9 +62,7 @@ struct Rows {
     ImageLayer* out = begin("error", {"R", "G", "B"});
     if (!out) return;
     const int top = std::max(y0 - 1, 0), bottom = std::min(y1 + 1, film.height);
-    Film part(film.width, bottom - top, false);
-    std::copy_n(film.pixels.begin() + std::ptrdiff_t(top) * film.width, part.pixels.size(), part.pixels.begin());
-    const std::vector<Vec3d> variances = pooled_variances(part);
+    const std::vector<Vec3d> variances = pooled_variances(film_rows(film, top, bottom));
     const size_t above = size_t(y0 - top) * size_t(film.width);
     float* to = out->image.pixels.data();
     for (size_t i = 0; i < out->image.pixels.size() / 3; ++i)

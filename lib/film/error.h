@@ -18,6 +18,11 @@ struct Interval {
   double value = 0, low = 0, high = 0;
 };
 
+/// Mid grey, 0.18 on the display, in the light of a scene with that floor.
+inline double mid_grey_of(double error_floor) {
+  return 0.18 / default_error_floor * error_floor;
+}
+
 /// In what a picture's errors are counted.
 struct ErrorScale {
   double floor = default_error_floor;  ///< scene light

@@ -8,8 +8,7 @@ namespace sateen {
 
 namespace {
 
-constexpr double most_calmer = 25;                       // that a pixel may be than its neighbours, by variance
-constexpr double mid_grey = 0.18 / default_error_floor;  // of the floor: both count on the display
+constexpr double most_calmer = 25;  // that a pixel may be than its neighbours, by variance
 
 /// A pixel's replicates: their means, how many samples each holds, and the sum of their coverage.
 struct Replicates {
@@ -146,7 +145,7 @@ double sum_of(const std::vector<PixelError>& errors) {
 }  // namespace
 
 std::vector<double> backings(const Film& film, const ErrorScale& scale) {
-  return film.opaque ? std::vector<double>{0} : std::vector<double>{0, mid_grey * scale.floor};
+  return film.opaque ? std::vector<double>{0} : std::vector<double>{0, mid_grey_of(scale.floor)};
 }
 
 FilmPixel laid_over(const FilmPixel& pixel, double backing) {

@@ -4,12 +4,6 @@
 
 namespace sateen {
 
-namespace {
-
-constexpr double grey_card = 0.18;  // as it is shown
-
-}  // namespace
-
 GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
                           int threads) {
   GridPicture picture;
@@ -39,7 +33,7 @@ void trace_more(GridPicture& picture, const Scene& scene, const LightSettings& l
 std::vector<PixelLoss> differences(const GridPicture& less, const GridPicture& whole, double error_floor) {
   std::vector<PixelLoss> all(less.pixels.size());
   const double share = double(replicates) / less.grid.samples;
-  const double card = whole.opaque ? 0 : grey_card / default_error_floor * error_floor;
+  const double card = whole.opaque ? 0 : mid_grey_of(error_floor);
   for (size_t i = 0; i < all.size(); ++i) {
     const double alpha = pixel_coverage(whole.pixels[i]), less_alpha = pixel_coverage(less.pixels[i]);
     for (size_t r = 0; r < size_t(replicates); ++r)

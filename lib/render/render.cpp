@@ -83,6 +83,7 @@ struct Run {
   ErrorScale scale() const { return {settings.error_floor, settings.threads}; }
 
   void begin_pass(const Film& film, int end) {
+    measured = false;
     work = work_of(film);
     coming_work = pass_work(film, course, end);
     next_work = std::max(coming_work / std::max(end - course.samples, 1), 1e-6);
@@ -158,7 +159,10 @@ struct Run {
     return then && state.error.error > lower * then->error;
   }
 
+  bool measured = false;  ///< since the last pass
   void measure(const Film& film) {
+    if (measured) return;
+    measured = true;
     errors = pixel_errors(film, scale());
     state.error = picture_error(film, errors);
   }
