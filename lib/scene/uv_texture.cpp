@@ -32,9 +32,10 @@ struct Picture {
 /// The picture as colours or numbers, scaled, with whatever is not finite replaced by 0 and counted.
 Picture read_picture(const std::filesystem::path& path, const TextureValue& value, const ColorManager& colors,
                      bool is_color, PixelCounts& counts) {
-  Image file = read_image(path);
+  ImageFileInfo info;
+  Image file = read_image(path, image_limits(), &info);
   Picture picture;
-  picture.alpha = take_alpha(file, read_image_info(path));
+  picture.alpha = take_alpha(file, info);
   const int channels = is_color ? 3 : 1;
   picture.image = Image(file.width, file.height, channels);
   Image& image = picture.image;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "fabric/tangent_curve.h"
 #include "math/frame.h"
+#include "sampling/split_mix.h"
 #include "scene/surface.h"
 
 namespace sateen {
@@ -15,16 +16,7 @@ namespace sateen {
 namespace {
 constexpr double pi_d = std::numbers::pi;
 
-/// SplitMix64: every sample has its own stream.
-struct Random {
-  std::uint64_t state;
-  double uniform() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-};
+using Random = SplitMix;  // every sample has its own stream
 
 struct Family {
   const ThreadFamily* authored;

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <regex>
 
@@ -27,17 +26,6 @@ std::vector<std::string> large(std::vector<std::string> more) {
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
-
-struct AddressLimit {
-  rlimit old{};
-  explicit AddressLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_AS, &old);
-    rlimit limit = old;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  ~AddressLimit() { setrlimit(RLIMIT_AS, &old); }
-};
 
 }  // namespace
 
@@ -69,7 +57,7 @@ TEST(Memory, APictureThatDoesNotFitIsRefusedBeforeItIsRenderedAndOneThatFitsIsWr
   const Folder folder;
   Finished run;
   {
-    const AddressLimit limit(1'000'000'000);
+    const ResourceLimit limit(RLIMIT_AS, 1'000'000'000);
     run = run_sateen(large({"-r", "2000", "2000", "-t", "1", "-o", "a.exr", "--checkpoint", "c"}), {folder.path});
   }
   EXPECT_EQ(run.code, 2) << run.err;
@@ -81,7 +69,7 @@ TEST(Memory, APictureThatDoesNotFitIsRefusedBeforeItIsRenderedAndOneThatFitsIsWr
   std::smatch m;
   ASSERT_TRUE(std::regex_search(run.err, m, std::regex(R"(--res (\d+) (\d+) fits)"))) << run.err;
   if (!std::getenv("SATEEN_LONG_TESTS")) return;
-  const AddressLimit limit(1'000'000'000);
+  const ResourceLimit limit(RLIMIT_AS, 1'000'000'000);
   run = run_sateen(large({"-r", m[1], m[2], "-t", "1", "-o", "a.exr", "--checkpoint", "c"}), {folder.path});
   EXPECT_EQ(run.code, 0) << run.err;
 }

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <csignal>
@@ -26,18 +25,6 @@ std::string stopped_by(const fs::path& path) {
   return found == attributes.end() ? "" : std::get<std::string>(found->second);
 }
 
-/// A limit on the size of files, for what is started while it is in force; nobody ignores the signal for it.
-struct FileSizeLimit {
-  rlimit old{};
-  explicit FileSizeLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &old);
-    rlimit limit = old;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &old); }
-};
-
 int files_in(const Folder& folder) {
   return int(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()));
 }
@@ -52,7 +39,7 @@ TEST(Outputs, AFileThatGrowsTooLargeIsAFailureThatCostsNoOther) {
   fs::remove(folder / "small.png");
   Finished run;
   {
-    const FileSizeLimit limit(before.size() / 2);
+    const ResourceLimit limit(RLIMIT_FSIZE, before.size() / 2);
     ASSERT_LT(8 * 1024u, before.size() / 2);
     run = run_sateen(words, {folder.path});
   }
@@ -71,7 +58,7 @@ TEST(Outputs, ASignalsCodeStaysWhereAnOutputFails) {
   start.folder = folder.path;
   start.signal = SIGINT;
   start.signal_after = "\"percent\"";
-  const FileSizeLimit limit(4'000);  // below the header alone: the signal may come before any light
+  const ResourceLimit limit(RLIMIT_FSIZE, 4'000);  // below the header alone: the signal may come before any light
   const Finished run = run_sateen(
       {"render",       "-m",   "swatch",       "--level", "0",         "-r", "60",         "34",   "-s", "100000",
        "--effects",    "none", "--candidates", "2",       "--bounces", "0",  "--progress", "json", "-o", "a.exr",

@@ -1,4 +1,6 @@
 #pragma once
+#include <sys/resource.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -39,6 +41,20 @@ struct Start {
   std::string signal_after;              ///< ... once this has appeared on standard error
   double signal_seconds = 0;             ///< ... or, above 0, so many seconds after the start
   bool close_output = false;             ///< the reader of standard output goes away at once
+};
+
+/// A limit of setrlimit(2), such as RLIMIT_FSIZE, for what is started while it is in force.
+struct ResourceLimit {
+  int resource;
+  rlimit old{};
+  ResourceLimit(int which, rlim_t bytes) : resource(which) {
+    getrlimit(__rlimit_resource(resource), &old);
+    rlimit limit = old;
+    limit.rlim_cur = bytes;
+    setrlimit(__rlimit_resource(resource), &limit);
+  }
+  ~ResourceLimit() { setrlimit(__rlimit_resource(resource), &old); }
+  ResourceLimit(const ResourceLimit&) = delete;
 };
 
 /// Runs `sateen WORDS` to its end.

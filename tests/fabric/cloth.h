@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "fabric/fabric.h"
 #include "look/read.h"
+#include "sampling/split_mix.h"
 
 // What the tests of the cloth model share: the looks of the project, compiled once, and plain random numbers.
 
@@ -53,15 +54,7 @@ Curves fine_curves_of(const Look& look, double degrees, int nodes);
 struct Random;
 Look random_look(Random& random, bool adversarial);
 
-/// xoshiro-free, small and good enough: SplitMix64.
-struct Random {
-  std::uint64_t state;
-  std::uint64_t bits() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
+struct Random : SplitMix {
   /// [0, 1) with 32 bits, as the renderer's sequences have.
   double uniform() { return double(bits() >> 32) * 0x1p-32; }
   double between(double a, double b) { return a + (b - a) * uniform(); }

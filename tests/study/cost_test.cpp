@@ -10,6 +10,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "sampling/split_mix.h"
 #include "study/cost_report.h"
 
 namespace sateen_test {
@@ -72,15 +73,7 @@ void expect_ordered(const CostResult& cost, const Quality& coarse, const Quality
   }
 }
 
-// Small and reproducible: SplitMix64.
-struct Dice {
-  std::uint64_t state;
-  double uniform() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
+struct Dice : SplitMix {
   double normal() { return std::sqrt(-2 * std::log(1 - uniform())) * std::cos(2 * M_PI * uniform()); }
 };
 
@@ -111,7 +104,8 @@ CostResult noisy_cost(Dice& dice, double scatter) {
         for (int k = 0; k < 3; ++k) times.back().push_back(truths[i].time * std::exp(scatter * dice.normal()));
       }
       if (!p.asked) p.noise_factor = measured(dice, truths[i].noise, scatter / 3);
-      const double bias = scale * std::max(truths[i].bias + 0.001 * dice.normal() * (truths[i].bias > 0 ? 1 : 0), 0.0);
+      const double bias =
+          scale * std::max(truths[i].bias + 0.001 * dice.normal() * (truths[i].bias > 0 ? 1 : 0), 0.0);
       p.bias = {{bias, std::max(bias - 0.002, 0.0), bias > 0 ? bias + 0.002 : 0}, 5};
       made.prices.push_back(p);
     }

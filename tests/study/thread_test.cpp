@@ -7,6 +7,7 @@
 #include "fabric/talk_sampler.h"
 #include "fabric/threads.h"
 #include "look/read.h"
+#include "sampling/split_mix.h"
 #include "study/study_scene.h"
 #include "study/thread_path.h"
 #include "study/thread_study.h"
@@ -19,16 +20,7 @@ namespace {
 
 constexpr double degree = M_PI / 180;
 
-/// SplitMix64.
-struct Dice {
-  std::uint64_t state;
-  double uniform() {
-    std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
-  }
-};
+using Dice = SplitMix;
 
 // The family alone, as one flat warp thread that fills the cloth.
 Look alone(const ThreadFamily& family) {
