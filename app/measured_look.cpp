@@ -22,7 +22,10 @@ std::string linear_space(const std::string& space) {
 MeasuredLook measure_look(const Look& look, bool with_table, const std::string& ocio, const std::string& working) {
   MeasuredLook measured;
   measured.look = look;
-  measured.warnings = look.weave.draft_warnings;
+  const auto warn = [&](const std::vector<std::string>& more) {
+    measured.warnings.insert(measured.warnings.end(), more.begin(), more.end());
+  };
+  warn(look.weave.draft_warnings);
   measured.space = working.empty() ? linear_space(look.color_space) : working;
   std::unique_ptr<ColorManager> colors;  // made only where a colour needs it: reading a config takes its time
   const ToWorking convert = [&](const Color& value, const std::string& space) {
@@ -35,14 +38,14 @@ MeasuredLook measure_look(const Look& look, bool with_table, const std::string& 
   parts.threads = thread_count(0);
   if (look.textures.empty() && look.pattern_look.empty()) {
     measured.fabric = compile_fabric(look, convert, parts);
-    if (colors) measured.warnings = colors->warnings();
+    if (colors) warn(colors->warnings());
     return measured;
   }
   colors = std::make_unique<ColorManager>(ocio, measured.space);
   CompiledSide side = compile_side(look, *colors, parts);
   measured.fabric = std::move(side.fabric);
-  measured.warnings = colors->warnings();
-  measured.warnings.insert(measured.warnings.end(), side.warnings.begin(), side.warnings.end());
+  warn(colors->warnings());
+  warn(side.warnings);
   if (side.color_error >= 0.005f)
     measured.warnings.push_back(fmt::format(
         "{}: textures of color are solved for the means of the textures of numbers; where one of those is at the end "

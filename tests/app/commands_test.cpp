@@ -128,6 +128,20 @@ TEST(LookCommand, CheckPrintsAlbedoByAngleAndNamesWhatPassesOne) {
   EXPECT_TRUE(is_json(run_sateen({"look", "check", "silk_shot", "--json"}).out));
 }
 
+// What is told of a draft is not lost where textures are read, which have warnings of their own.
+TEST(LookCommand, CheckTellsOfADraftBesideTextures) {
+  const Folder folder;
+  write_text(folder / "d.wif",
+             "[WIF]\nVersion=1.1\n[WEAVING]\nRising Shed=yes\n[COLOR TABLE]\n1=999,0,0\n[THREADING]\n1=1\n2=2\n"
+             "[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n");
+  write_text(folder / "a.json",
+             "{\"inherits\": \"" SATEEN_SOURCE_DIR "/looks/printed_silk.json\", \"weave\": {\"draft\": \"d.wif\"}}");
+  const Finished run = run_sateen({"look", "check", folder / "a.json"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE((run.out + run.err).find("the colours of its threads (COLOR TABLE) are not used yet"), std::string::npos)
+      << run.out << run.err;
+}
+
 TEST(LookCommand, CheckTellsAllErrorsOfAllFilesAndEndsWithTwo) {
   const Folder folder;
   write_text(folder / "a.json", "{ \"warp\": { \"gamma_s_deg\": 170 } }");
