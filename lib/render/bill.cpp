@@ -26,7 +26,7 @@ class Biller {
                             scene.camera.height);
     grid_.samples = settings.samples;
     // Also warms caches: the first of equals would seem dearer.
-    for (auto& [effect, part] : parts_) less_[effect] = {grid_, std::vector<FilmPixel>(size_t(grid_.pixels())), scene.backdrop != Backdrop::none, {}};
+    for (auto& [effect, part] : parts_) less_[effect] = blank_picture(scene, grid_);
     trace_grid(scene, light, seed, grid_, threads, [&](int i, std::span<const CameraSample> samples) {
       for (const auto& [effect, part] : parts_)
         for (const CameraSample& s : samples)

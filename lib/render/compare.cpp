@@ -4,13 +4,14 @@
 
 namespace sateen {
 
+GridPicture blank_picture(const Scene& scene, const PixelGrid& grid) {
+  return {grid, std::vector<FilmPixel>(size_t(grid.pixels())), scene.backdrop != Backdrop::none, {}};
+}
+
 GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
                           int threads) {
-  GridPicture picture;
-  picture.grid = grid;
-  picture.opaque = scene.backdrop != Backdrop::none;
+  GridPicture picture = blank_picture(scene, grid);
   picture.grid.samples = 0;
-  picture.pixels.resize(size_t(grid.pixels()));
   trace_more(picture, scene, light, seed, grid.samples, threads);
   return picture;
 }

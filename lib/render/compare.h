@@ -18,6 +18,8 @@ struct GridPicture {
   bool opaque = false;  ///< a backdrop is seen
   GridWork work;
 };
+/// Without a sample yet.
+GridPicture blank_picture(const Scene& scene, const PixelGrid& grid);
 GridPicture trace_picture(const Scene& scene, const LightSettings& light, std::uint32_t seed, const PixelGrid& grid,
                           int threads);
 /// Goes on to `samples` a pixel: the same sums as of a picture that had them all at once.

@@ -86,6 +86,12 @@ bool EffectSwitches::named_on(Effect effect) const {
 bool EffectSwitches::named_off(Effect effect) const {
   return contains(off, effect);
 }
+bool EffectSwitches::is_asked(Effect effect) const {
+  return !named_off(effect) && (named_on(effect) || rest == Rest::all);
+}
+bool EffectSwitches::is_off(Effect effect) const {
+  return named_off(effect) || (rest == Rest::none && !named_on(effect));
+}
 
 EffectSwitches read_effects(const std::string& list) {
   EffectSwitches switches;

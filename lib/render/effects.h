@@ -56,6 +56,8 @@ struct EffectSwitches {
 
   bool named_on(Effect effect) const;
   bool named_off(Effect effect) const;
+  bool is_asked(Effect effect) const;  ///< switched on by name, or with all of them
+  bool is_off(Effect effect) const;    ///< switched off by name, or with all of them
 };
 
 /// "auto", "all", "none" and names with + or -, separated by commas: "auto,+interreflection,-gaps". InputError with

@@ -18,10 +18,7 @@ std::optional<Scene> without_switched_off(const Scene& scene, const EffectSwitch
   std::optional<Scene> rest;
   LightSettings light;
   for (const EffectInfo& info : effect_list()) {
-    if (!info.switchable || info.effect == Effect::interreflection) continue;
-    const bool off = switches.named_off(info.effect) ||
-                     (switches.rest == EffectSwitches::Rest::none && !switches.named_on(info.effect));
-    if (!off) continue;
+    if (!info.switchable || info.effect == Effect::interreflection || !switches.is_off(info.effect)) continue;
     if (!rest) rest = scene;
     remove_effect(info.effect, *rest, light);
   }
@@ -42,16 +39,6 @@ struct Decided {
 
 }  // namespace
 
-bool PlanWork::is_asked(Effect effect) const {
-  const EffectSwitches& s = settings.switches;
-  return !s.named_off(effect) && (s.named_on(effect) || s.rest == EffectSwitches::Rest::all);
-}
-
-bool PlanWork::is_off(Effect effect) const {
-  const EffectSwitches& s = settings.switches;
-  return s.named_off(effect) || (s.rest == EffectSwitches::Rest::none && !s.named_on(effect));
-}
-
 PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& switches, const std::string& reason,
                         const std::string& missing, const std::string& remedy) {
   PlannedEffect planned{effect, is_there, is_there ? Basis::look : Basis::data, is_there ? reason : missing, {},
@@ -59,8 +46,7 @@ PlannedEffect described(Effect effect, bool is_there, const EffectSwitches& swit
   planned.missing = !is_there;
   if (!is_there && switches.named_on(effect))
     throw InputError(fmt::format("--effects +{}: {}", effect_info(effect).name, missing), remedy);
-  if (is_there &&
-      (switches.named_off(effect) || (switches.rest == EffectSwitches::Rest::none && !switches.named_on(effect)))) {
+  if (is_there && switches.is_off(effect)) {
     planned.on = false;
     planned.basis = Basis::asked;
     planned.reason = fmt::format("switched off; {}", reason);
@@ -153,16 +139,14 @@ void hold_to(const EffectSwitches& switches, Plan& plan) {
   if (switches.bounces) plan.bounces = *switches.bounces;
   for (PlannedEffect& p : plan.effects) {
     if (!effect_info(p.effect).switchable || p.missing || p.effect == Effect::references) continue;
-    const bool off =
-        switches.named_off(p.effect) || (switches.rest == EffectSwitches::Rest::none && !switches.named_on(p.effect));
-    const bool on = switches.named_on(p.effect) || switches.rest == EffectSwitches::Rest::all;
+    const bool off = switches.is_off(p.effect), on = switches.is_asked(p.effect);
     if (p.effect != Effect::interreflection) {
-      if (off || on) p.on = !off;
+      if (off || on) p.on = on;
       continue;
     }
     if (switches.bounces && !switches.named_off(p.effect)) continue;
     if (off) plan.bounces = 0;
-    if (on && !off) plan.bounces = every_bounce;
+    if (on) plan.bounces = every_bounce;
   }
   plan.effects[size_t(Effect::interreflection)].on = plan.bounces > 0;
 }

@@ -44,7 +44,7 @@ PlannedEffect plan_gaps(PlanWork& work, bool is_there) {
                                  fmt::format("no thread covers {}{:.3g} % of the cloth",
                                              work.scene.has_maps ? "up to " : "", 100 * most_gap(work.scene)),
                                  "the threads cover all of the cloth", "give the look less coverage");
-  if (gaps.on && !work.is_asked(Effect::gaps)) decide_by_pilot(work, gaps);
+  if (gaps.on && !work.settings.switches.is_asked(Effect::gaps)) decide_by_pilot(work, gaps);
   return gaps;
 }
 
@@ -68,8 +68,8 @@ PlannedEffect plan_weave(const Scene& scene, const PlanSettings& settings) {
 
 PlannedEffect plan_self_shadowing(PlanWork& work, const SelfLight& self) {
   PlannedEffect planned{Effect::self_shadowing, true, Basis::data, self.form + self.but, {}, {}, 0};
-  const bool asked = work.is_asked(planned.effect);
-  if (work.is_off(planned.effect)) {
+  const bool asked = work.settings.switches.is_asked(planned.effect);
+  if (work.settings.switches.is_off(planned.effect)) {
     planned.on = false;
     planned.basis = Basis::asked;
     planned.reason = "switched off";
@@ -90,7 +90,7 @@ PlannedBounces plan_bounces(PlanWork& work, bool possible, const std::string& re
   PlannedEffect& p = out.planned;
   p.effect = Effect::interreflection;
   p.cost = pilot.bounce_cost;
-  const bool off = work.is_off(p.effect) && (switches.named_off(p.effect) || !switches.bounces);
+  const bool off = switches.is_off(p.effect) && (switches.named_off(p.effect) || !switches.bounces);
   // What the bounces that are followed leave out.
   const auto settled = [&] {
     if (possible && pilot.indirect) {
@@ -99,7 +99,7 @@ PlannedBounces plan_bounces(PlanWork& work, bool possible, const std::string& re
     }
     return out;
   };
-  if (off || switches.bounces || work.is_asked(p.effect)) {
+  if (off || switches.bounces || switches.is_asked(p.effect)) {
     out.count = off ? 0 : switches.bounces.value_or(every_bounce);
     p.on = out.count > 0;
     p.basis = Basis::asked;

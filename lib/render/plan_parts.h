@@ -15,9 +15,6 @@ struct PlanWork {
   const PlanSettings& settings;
   PlanPilot& pilot;
   double allowed = 0;  ///< E of what may still be ruled out by a pilot
-
-  bool is_asked(Effect effect) const;  ///< switched on by name, or with all of them
-  bool is_off(Effect effect) const;    ///< switched off by name, or with all of them
 };
 
 /// An effect that is there because the scene describes it. InputError where it is switched on and is not there.

@@ -54,10 +54,7 @@ PlanPilot run_plan_pilot(const Scene& scene, const LightSettings& asked, double 
   for (auto* numbers : {&parts.direct_noise, &parts.indirect_noise, &parts.indirect_square, &parts.indirect_mean})
     numbers->resize(size_t(grid.pixels()));
 
-  GridPicture& whole = pilot.whole;
-  whole.grid = grid;
-  whole.opaque = scene.backdrop != Backdrop::none;
-  whole.pixels.resize(size_t(grid.pixels()));
+  GridPicture& whole = pilot.whole = blank_picture(scene, grid);
   whole.work = trace_grid(scene, light, seed, grid, threads, [&](int pixel, std::span<const CameraSample> samples) {
     constexpr float part = float(replicates) / pilot_samples;  // a replicate's mean
     Vec3d value(0);

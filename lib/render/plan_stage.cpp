@@ -31,7 +31,7 @@ Extent extent_of(const Scene& scene) {
 /// Leaves out what is too small to see, unless the pilot sees it: lobes may be narrower than the turn, threads finer
 /// than the blur.
 void rule_out(PlanWork& work, PlannedEffect& planned, const std::string& why) {
-  if (!planned.on || work.is_asked(planned.effect)) return;
+  if (!planned.on || work.settings.switches.is_asked(planned.effect)) return;
   planned.reason += ": " + why;
   decide_by_pilot(work, planned);
 }
@@ -63,7 +63,7 @@ PlannedEffect plan_lens(PlanWork& work, const Scene& whole) {
   if (blur < visible_pixels && !seen_behind && !whole.ground)
     rule_out(work, planned,
              fmt::format("less than half of one; it is {:.3g} units large, whose size --metres-per-unit says",
-                       2 * extent_of(whole).radius * whole.mesh->placement.unit));
+                         2 * extent_of(whole).radius * whole.mesh->placement.unit));
   return planned;
 }
 
