@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "film/neighbours.h"
+
 namespace sateen {
 
 namespace {
@@ -18,36 +20,21 @@ double student_95(double freedom) {
   return z + (z3 + z) / (4 * f) + (5 * z5 + 16 * z3 + 3 * z) / (96 * f * f);
 }
 
-/// Mean over the up to eight neighbours that are known of what `value` makes of them; false where there are none.
-template <class T, class Value>
-bool neighbours_mean(const Film& film, int x, int y, const Value& value, T& mean) {
-  T sum(0);
-  double count = 0;
-  for (int py = std::max(y - 1, 0); py <= std::min(y + 1, film.height - 1); ++py)
-    for (int px = std::max(x - 1, 0); px <= std::min(x + 1, film.width - 1); ++px) {
-      const size_t i = size_t(py) * size_t(film.width) + size_t(px);
-      if ((px == x && py == y) || film.pixels[i].samples < 2) continue;
-      sum += value(i);
-      ++count;
-    }
-  if (count > 0) mean = sum / count;
-  return count > 0;
-}
-
 /// `own` of every pixel, half of it replaced by its neighbours'. Of the same samples: where a neighbour has more, its
 /// variance is smaller for no reason of this pixel.
 template <class T>
 std::vector<T> half_from_neighbours(const Film& film, const std::vector<T>& own) {
-  std::vector<T> out(own.size(), T(0));
-  for (int y = 0; y < film.height; ++y)
-    for (int x = 0; x < film.width; ++x) {
-      const size_t here = size_t(y) * size_t(film.width) + size_t(x);
-      if (film.pixels[here].samples < 2) continue;
-      const double samples = std::max(double(film.pixels[here].samples), 1.0);
-      T mean(0);
-      const auto scaled = [&](size_t i) { return own[i] * (double(film.pixels[i].samples) / samples); };
-      out[here] = neighbours_mean(film, x, y, scaled, mean) ? (own[here] + mean) * 0.5 : own[here];
-    }
+  std::vector<T> of_sample(own.size(), T(0));
+  std::vector<double> present(own.size()), counts;
+  for (size_t i = 0; i < own.size(); ++i) {
+    present[i] = film.pixels[i].samples >= 2;
+    of_sample[i] = own[i] * double(film.pixels[i].samples);
+  }
+  std::vector<T> out = mean_of_neighbours(of_sample, present, film.width, film.height, 1, &counts);
+  for (size_t i = 0; i < own.size(); ++i) {
+    const double samples = double(film.pixels[i].samples);
+    out[i] = present[i] == 0 ? T(0) : counts[i] > 0 ? (own[i] + out[i] / samples) * 0.5 : own[i];
+  }
   return out;
 }
 
