@@ -120,7 +120,7 @@ void check_mesh(Finding& f, bool weld) {
     f.facts.push_back(
         fmt::format("welded along {}, {} fewer", counted(welded.edges, "edge"), counted(welded.vertices, "vertex")));
   } else if (const std::string touching = touching_text(touching_borders(cage)); !touching.empty()) {
-    f.notices.push_back(touching + ": a crease shows there; weld them on export, or with --weld");
+    f.notices.push_back(touching);
   }
   f.facts.push_back("cage of " + cage_text(cage));
   if (!cage.creases.empty()) f.facts.push_back(counted((long long)cage.creases.size(), "creased edge"));

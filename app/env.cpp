@@ -12,6 +12,7 @@
 #include "light_flags.h"
 #include "look/json_writer.h"
 #include "outputs.h"
+#include "picture_report.h"
 #include "render/picture.h"
 #include "scene/environment_file.h"
 #include "scene/environment_make.h"
@@ -43,13 +44,12 @@ int env_make(const std::vector<std::string>& words) {
   MapDescription description = read_map_description(names[0]);
   check_not_read({{"--output", output}});
   if (width > 0) description.width = width, description.height = height;
-  const long long beyond = write_made_environment(output, description);
-  if (beyond > 0)
-    print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504", output, beyond));
+  const HalfRange range = write_made_environment(output, description);
+  warn_of_half_floats(output, range, "");
   if (voice.json) {
     JsonWriter w;
     w.open_object().member("path", output).member("width", description.width).member("height", description.height);
-    print_result(w.member("clamped", beyond).close().text());
+    print_result(w.member("clamped", range.held).close().text());
   } else {
     print_note(
         fmt::format("wrote {}  {} x {}, {}", output, description.width, description.height, description.color_space));

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "base/file_identity.h"
-#include "look/json.h"
 #include "console.h"
 #include "exit_code.h"
+#include "look/json.h"
 #include "picture_report.h"
 
 namespace sateen::app {
@@ -22,8 +22,11 @@ std::vector<NamedFile> named_outputs(const std::vector<std::string>& pictures, c
     for (const NamedFile& other : all) {
       if (!same_file(other.path, file.path)) continue;
       const bool same_name = other.path == file.path;
-      throw InputError(fmt::format("{} is given twice: as {}{} and as {}", shown_name(file.path), other.role,
-                                   same_name ? "" : " " + shown_name(other.path), file.role),
+      throw InputError(fmt::format("{} is given twice: {}", shown_name(file.path),
+                                   same_name && other.role == file.role
+                                       ? "both times as " + file.role
+                                       : fmt::format("as {}{} and as {}", other.role,
+                                                     same_name ? "" : " " + shown_name(other.path), file.role)),
                        "each file is written once: leave one of them out, or name another file");
     }
     all.push_back(file);

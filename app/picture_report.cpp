@@ -67,9 +67,10 @@ std::string reason_text(const StopRules& stop, const RenderResult& result) {
       return fmt::format("stopped by time ({})", time);
     }
     case StopReason::rare:
-      return fmt::format("stopped before the error fell to {}: what few pixels met makes it, and more samples do not "
-                         "lower it; a small light that is far brighter than all else does that, or cloth like a mirror",
-                         stop.error);
+      return fmt::format(
+          "stopped before the error fell to {}: what few pixels met makes it, and more samples do not "
+          "lower it; a small light that is far brighter than all else does that, or cloth like a mirror",
+          stop.error);
     case StopReason::interrupted:
       break;
   }
@@ -254,21 +255,29 @@ void write_result(JsonWriter& w, const RenderResult& result, const WrittenPictur
   w.close();
 }
 
+void warn_of_half_floats(const std::string& file, const HalfRange& range, const std::string& remedy) {
+  if (range.held > 0)
+    print_warning(
+        fmt::format("{}: {} values were beyond the range of half and were held at 65504", file, range.held));
+  if (range.is_dim())
+    print_warning(fmt::format("{}: its brightest value is {:.2g}, half floats step by 6e-8 there{}", file,
+                              range.brightest, remedy));
+}
+
 void print_written(const PictureJob& job, const WrittenPicture& file) {
   const std::string content = file.layers > 0 ? fmt::format("{} layers, {}", file.layers, job.working_space)
                                               : fmt::format("{}, {}", job.display.display, job.display.view);
   print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content,
                          size_text(file.bytes)));
-  if (file.clamped > 0)
-    print_warning(fmt::format("{}: {} values were beyond the range of half and were held at 65504",
-                              file.path.string(), file.clamped));
+  warn_of_half_floats(file.path.string(), file.range, ", --env-exposure brightens the light");
 }
 
 void print_result_line(const PictureJob& job, const RenderResult& result) {
   print_note(fmt::format("{} in {}, {}; {}", samples_text(result.samples), seconds_text(result.seconds),
                          error_text(result.error), reason_text(job.render.stop, result)));
   if (result.error.known && result.error.error > 0)
-    print_note(fmt::format("95 % of the cloth's pixels are within {} of their final value", percent_text(result.deviation)));
+    print_note(
+        fmt::format("95 % of the cloth's pixels are within {} of their final value", percent_text(result.deviation)));
   if (const Promise& p = result.promise; p.made && result.reason != StopReason::interrupted)
     print_note(fmt::format("promised: {}, {:.1f} CPU-s; it took {}, {:.1f} CPU-s", forecast_text(p.seconds),
                            p.cpu_seconds.value, seconds_text(result.total_seconds), result.total_cpu_seconds));

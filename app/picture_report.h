@@ -29,6 +29,9 @@ void write_result(JsonWriter& w, const RenderResult& result, const WrittenPictur
 /// To --stats and, with --json, to standard output.
 void write_stats(const PictureFlags& flags, const std::string& json);
 
+/// A warning where half floats hold too little of a file's colours; `remedy` ends its sentence.
+void warn_of_half_floats(const std::string& file, const HalfRange& range, const std::string& remedy);
+
 /// One line a file.
 void print_written(const PictureJob& job, const WrittenPicture& file);
 /// Samples, time, error and the rule that stopped; complaints about samples that were not finite.

@@ -77,8 +77,8 @@ Imf::FrameBuffer frame_buffer(const std::vector<ImageLayer>& layers, Planes& pla
 }
 
 // Takes the pixels out of the layers, and rounds the half ones; finite values beyond half's range are held at its
-// ends and counted.
-Planes planes_of(std::vector<ImageLayer>& layers, long long& clamped) {
+// ends.
+Planes planes_of(std::vector<ImageLayer>& layers, HalfRange& range) {
   Planes planes;
   planes.layers.resize(layers.size());
   for (size_t l = 0; l < layers.size(); ++l) {
@@ -90,9 +90,12 @@ Planes planes_of(std::vector<ImageLayer>& layers, long long& clamped) {
     planes.layers[l].halves.resize(pixels.size());
     for (size_t i = 0; i < pixels.size(); ++i) {
       float value = pixels[i];
-      if (std::isfinite(value) && std::abs(value) > HALF_MAX) {
+      const float size = std::abs(value);
+      if (std::isfinite(value) && layers[l].channels[i % layers[l].channels.size()] != "A")
+        range.brightest = std::max(range.brightest, size);
+      if (std::isfinite(value) && size > HALF_MAX) {
         value = std::copysign(float(HALF_MAX), value);
-        ++clamped;
+        ++range.held;
       }
       planes.layers[l].halves[i] = half(value);
     }
@@ -146,23 +149,23 @@ struct Bands {
   }
 };
 
-long long write_bands(const fs::path& path, const Bands& bands, const Attributes& attributes,
+HalfRange write_bands(const fs::path& path, const Bands& bands, const Attributes& attributes,
                       const std::optional<ColorManager::Chromaticities>& chromaticities) {
-  long long clamped = 0;
+  HalfRange range;
   CheckedStream stream(path);
   {
     std::optional<Imf::OutputFile> file;
     for (int y0 = 0; y0 < bands.height; y0 += bands.step) {
       std::vector<ImageLayer> band = bands.at(y0);
       const int rows = band[0].image.height;
-      Planes planes = planes_of(band, clamped);
+      Planes planes = planes_of(band, range);
       if (!file) file.emplace(stream, header_of(bands.width, bands.height, band, attributes, chromaticities));
       file->setFrameBuffer(frame_buffer(band, planes, y0));
       file->writePixels(rows);
     }
   }
   stream.close();
-  return clamped;
+  return range;
 }
 
 void verify(const fs::path& path, const Bands& bands) {
@@ -177,8 +180,8 @@ void verify(const fs::path& path, const Bands& bands) {
   for (int y0 = 0; y0 < bands.height; y0 += bands.step) {
     std::vector<ImageLayer> band = bands.at(y0);
     const int rows = band[0].image.height;
-    long long clamped = 0;
-    const Planes meant = planes_of(band, clamped);
+    HalfRange range;
+    const Planes meant = planes_of(band, range);
     Planes back;
     for (const Planes::Layer& layer : meant.layers) {
       back.layers.emplace_back();
@@ -202,9 +205,9 @@ void set_exr_threads(int threads) {
   Imf::setGlobalThreadCount(count > 1 ? count : 0);
 }
 
-long long write_exr(const fs::path& path, int width, int height, const LayerRows& rows, const Attributes& attributes,
+HalfRange write_exr(const fs::path& path, int width, int height, const LayerRows& rows, const Attributes& attributes,
                     const std::optional<ColorManager::Chromaticities>& chromaticities) {
-  long long clamped = 0;
+  HalfRange range;
   write_file_whole(path, [&](const fs::path& temporary) {
     if (width < 1 || height < 1) throw OperationError(fmt::format("the picture is {} x {}", width, height));
     const std::vector<ImageLayer> first = rows(0, 1);
@@ -213,10 +216,10 @@ long long write_exr(const fs::path& path, int width, int height, const LayerRows
     for (const ImageLayer& layer : first) channels += layer.image.channels;
     const Bands bands{width, height,
                       exr_band_rows(channels * width * std::int64_t(sizeof(float)), Imf::globalThreadCount()), rows};
-    clamped = write_bands(temporary, bands, attributes, chromaticities);
+    range = write_bands(temporary, bands, attributes, chromaticities);
     verify(temporary, bands);
   });
-  return clamped;
+  return range;
 }
 
 Image read_exr_beauty(const fs::path& path) {

@@ -65,6 +65,13 @@ std::string find_channel(const Group& group, std::initializer_list<const char*> 
   return {};
 }
 
+/// Channels that stand alone in files of matte, depth and the like.
+bool is_no_light(const std::string& channel) {
+  constexpr const char* names[] = {"a", "alpha", "z", "zback", "depth", "id", "u", "v"};
+  const std::string name = lower(behind_dot(channel));
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
 bool whole(const std::array<std::string, 3>& channels) {
   return !channels[0].empty() && !channels[1].empty() && !channels[2].empty();
 }
@@ -158,7 +165,7 @@ int choose_layer(const std::vector<ExrPart>& parts, const std::string& wanted, s
       part = int(p);
       channel = parts[p].channels[0];
     }
-  if (count != 1) return -1;
+  if (count != 1 || is_no_light(channel)) return -1;
   layers.push_back({channel, LayerKind::grey, part, false, false, {channel, "", ""}});
   return int(layers.size()) - 1;
 }

@@ -109,7 +109,7 @@ void write_display_image(const fs::path& path, int width, int height, int channe
   image_file_functions().write_display(path, {width, height, channels, rows}, attributes, bits, srgb);
 }
 
-long long write_exr(const fs::path& path, const std::vector<ImageLayer>& layers, const Attributes& attributes,
+HalfRange write_exr(const fs::path& path, const std::vector<ImageLayer>& layers, const Attributes& attributes,
                     const std::optional<ColorManager::Chromaticities>& chromaticities) {
   const auto fail = [&](const std::string& what) {
     throw OperationError(fmt::format("{}: not written: {}", path.string(), what));

@@ -48,6 +48,16 @@ struct ImageLayer {
   Image image;
 };
 
+/// What half floats made of the colours of an OpenEXR file's half layers, alpha left out.
+struct HalfRange {
+  long long held = 0;   ///< finite values beyond +-65504, written as these
+  float brightest = 0;  ///< the largest finite magnitude that was asked for
+
+  /// Below 2^-14 half floats lose a bit with every stop, and below 2^-24 all: a sixteenth of the brightest lies
+  /// there.
+  bool is_dim() const { return brightest > 0 && brightest < 0x1p-10f; }
+};
+
 using Attribute = std::variant<int, double, std::string>;
 using Attributes = std::map<std::string, Attribute>;  ///< "sateen:spp" ...
 
@@ -56,19 +66,19 @@ using Attributes = std::map<std::string, Attribute>;  ///< "sateen:spp" ...
 void set_exr_threads(int threads);
 
 /// Writes an OpenEXR file whole or not at all (base/files), reads it back and compares before it takes its name.
-/// Half layers clamp finite values to +-65504 and return how many were clamped; no timestamp goes into the header,
-/// and no chromaticities where they are not known.
-long long write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,
+/// Half layers hold finite values at +-65504. No timestamp goes into the header, and no chromaticities where they are
+/// not known.
+HalfRange write_exr(const std::filesystem::path& path, const std::vector<ImageLayer>& layers,
                     const Attributes& attributes, const std::optional<ColorManager::Chromaticities>& chromaticities);
 
 /// The same bytes of a picture that never lies in memory whole: `rows` makes the rows from y0 to y1 of all layers,
 /// always the same ones, from the top downwards, once to write them and once more to compare.
 using LayerRows = std::function<std::vector<ImageLayer>(int y0, int y1)>;
-long long write_exr(const std::filesystem::path& path, int width, int height, const LayerRows& rows,
+HalfRange write_exr(const std::filesystem::path& path, int width, int height, const LayerRows& rows,
                     const Attributes& attributes, const std::optional<ColorManager::Chromaticities>& chromaticities);
 
-/// R, G, B and A of an OpenEXR file, 0 where it has none, without the memory of its other layers. InputError where they
-/// cannot be read.
+/// R, G, B and A of an OpenEXR file, 0 where it has none, without the memory of its other layers. InputError where
+/// they cannot be read.
 Image read_exr_beauty(const std::filesystem::path& path);
 
 /// Display-referred picture (values in [0, 1], 3 or 4 channels) by extension: png (8 or 16 bit), jpg, tif.

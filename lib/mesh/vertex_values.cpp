@@ -73,7 +73,10 @@ void VertexValues::mend_normals() {
     mesh_.normals[i] = Vec3(0, 1, 0);
     ++made_up;
   }
-  if (made_up) mesh_.warnings.push_back(fmt::format("{} vertices have no normal and were given +Y", made_up));
+  if (made_up)
+    mesh_.warnings.push_back(fmt::format("{} {} no normal and {} given +Y", made_up,
+                                         made_up == 1 ? "vertex has" : "vertices have",
+                                         made_up == 1 ? "was" : "were"));
 }
 
 void VertexValues::mend_warps() {

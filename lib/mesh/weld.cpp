@@ -170,7 +170,9 @@ Touching weld_borders(ControlMesh& cage) {
 std::string touching_text(const Touching& t) {
   if (t.edges == 0) return {};
   const std::string what = t.pieces == 1 ? "borders" : fmt::format("{} pieces", t.pieces);
-  return fmt::format("its {} touch along {} but are not joined", what, counted(t.edges, "edge"));
+  return fmt::format(
+      "its {} touch along {} but are not joined: a crease shows there; weld them on export, or with --weld", what,
+      counted(t.edges, "edge"));
 }
 
 }  // namespace sateen

@@ -13,11 +13,10 @@ struct Touching {
 Touching touching_borders(const ControlMesh& cage);
 
 /// Joins them: faces use one vertex for all that coincide. Texture coordinates stay as they are, so that a seam in
-/// them remains; creases and corners follow. The
-/// first of them stays, the others go.
+/// them remains; creases and corners follow. The first of them stays, the others go.
 Touching weld_borders(ControlMesh& cage);
 
-/// "its 2 pieces touch along 3 edges but are not joined"; empty where nothing touches.
+/// "its 2 pieces touch along 3 edges but are not joined: a crease shows there ...", with the remedy; empty where nothing touches.
 std::string touching_text(const Touching& touching);
 
 }  // namespace sateen

@@ -114,6 +114,8 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
     const Touching touching = weld_borders(cage);
     if (touching.edges == 0)
       report.warnings.push_back(fmt::format("{}: no borders coincide: there is nothing to weld", settings.mesh));
+  } else if (const std::string touching = touching_text(touching_borders(cage)); !touching.empty()) {
+    report.warnings.push_back(settings.mesh + ": " + touching);
   }
   report.mesh_hash = hash_mesh(cage);
   report.cage_faces = std::int64_t(cage.face_sizes.size());

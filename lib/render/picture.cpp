@@ -182,7 +182,7 @@ WrittenPicture write_picture(const fs::path& path, const PictureContent& content
   written.height = window.height();
   if (is_exr(path)) {
     written.layers = int(window.layers(0, 0).size());
-    written.clamped = write_exr(
+    written.range = write_exr(
         path, written.width, written.height, [&](int y0, int y1) { return window.layers(y0, y1); },
         content.attributes, colors.working_chromaticities());
   } else {

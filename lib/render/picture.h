@@ -62,7 +62,8 @@ struct PictureContent {
 struct WrittenPicture {
   std::filesystem::path path;
   int width = 0, height = 0, layers = 0;  ///< layers: 0 for display formats
-  long long bytes = 0, clamped = 0;       ///< clamped: values beyond half's range, which were held at its ends
+  long long bytes = 0;
+  HalfRange range;  ///< of an EXR
 };
 
 /// Writes one file by its extension, a band of rows at a time (image/bands.h): beside the film it takes the memory of

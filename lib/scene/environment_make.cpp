@@ -211,7 +211,7 @@ Image make_environment(const MapDescription& d) {
   return map;
 }
 
-long long write_made_environment(const std::filesystem::path& path, const MapDescription& d) {
+HalfRange write_made_environment(const std::filesystem::path& path, const MapDescription& d) {
   ImageLayer layer;
   layer.channels = {"R", "G", "B"};
   layer.half = true;

@@ -246,6 +246,9 @@ TEST(Check, TellsOfAMeshWhatItsCountsCountAndWhatARenderLeavesOut) {
                            "--weld\n",
                            "its 2 materials (shell?[31m, lining) are all rendered with one look\n"})
     EXPECT_NE(panels.find(line), std::string::npos) << line << "\n" << panels;
+  const Finished render = run_sateen(tiny({"-m", "panels.obj", "-o", "a.png"}), {folder.path});
+  EXPECT_NE(render.err.find("panels.obj: its 2 pieces touch along 1 edge but are not joined"), std::string::npos)
+      << render.err;
   const std::string welded = out({"check", "--weld", "panels.obj"});
   EXPECT_NE(welded.find("  welded along 1 edge, 2 vertices fewer\n"), std::string::npos) << welded;
   EXPECT_EQ(welded.find("not joined"), std::string::npos) << welded;

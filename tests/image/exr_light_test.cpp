@@ -137,6 +137,11 @@ TEST(ExrLight, RefusesToGuessAmongLayersListsThemAndTakesTheOneAskedFor) {
   EXPECT_NE(read(path, "mist").error.find("has no layer \"mist\"; its layers are RenderLayer.AO"), std::string::npos);
   // Vectors are no light unless asked for.
   EXPECT_NE(read(write_parts(folder, {{"", {"N.X", "N.Y", "N.Z"}}})).error, "");
+  for (const char* alone : {"Z", "A", "depth", "View Layer.Depth.Z", "Mist.alpha"}) {
+    const fs::path matte = write_parts(folder, {{"", {alone}}});
+    EXPECT_NE(read(matte).error.find("does not say which of its layers is the light"), std::string::npos) << alone;
+    EXPECT_EQ(read(matte, alone).first(), Color(1, 1, 1));
+  }
   const fs::path hdr = folder.path / "a.hdr";
   write_bytes(hdr, "#?RADIANCE\n\n-Y 1 +X 1\nabcd");
   EXPECT_NE(read(hdr, "AO").error.find("has no layers"), std::string::npos);

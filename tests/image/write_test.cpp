@@ -57,7 +57,8 @@ TEST(WriteExr, KeepsLayersAttributesAndChromaticities) {
   EXPECT_EQ(write_exr(path,
                       {layer("", {"R", "G", "B", "A"}, true, beauty), layer("N", {"X", "Y", "Z"}, false, normal),
                        layer("uv", {"U", "V"}, false, uv)},
-                      attributes, ap1_chromaticities),
+                      attributes, ap1_chromaticities)
+                .held,
             0);
   ImageFileInfo info;
   const Image back = read_image(path, {}, &info);
@@ -85,7 +86,9 @@ TEST(WriteExr, HoldsHalfLayersWithinRangeAndCounts) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   Image image(4, 2, 1);
   image.pixels = {1e6f, -1e30f, 65504, 65519, inf, -inf, nan, 0.5f};
-  EXPECT_EQ(write_exr(path, {layer("", {"Y"}, true, image)}, {}, ap1_chromaticities), 3);
+  const HalfRange range = write_exr(path, {layer("", {"Y"}, true, image)}, {}, ap1_chromaticities);
+  EXPECT_EQ(range.held, 3);
+  EXPECT_EQ(range.brightest, 1e30f);
   const Image back = read_image(path);
   EXPECT_EQ(back.pixels[0], 65504);
   EXPECT_EQ(back.pixels[1], -65504);
@@ -93,8 +96,21 @@ TEST(WriteExr, HoldsHalfLayersWithinRangeAndCounts) {
   EXPECT_EQ(back.pixels[3], 65504);
   EXPECT_EQ(back.pixels[4], inf);
   EXPECT_TRUE(std::isnan(back.pixels[6]));
-  EXPECT_EQ(write_exr(path, {layer("", {"Y"}, false, image)}, {}, ap1_chromaticities), 0);
+  EXPECT_EQ(write_exr(path, {layer("", {"Y"}, false, image)}, {}, ap1_chromaticities).held, 0);
   EXPECT_EQ(read_image(path).pixels[1], -1e30f);
+}
+
+TEST(WriteExr, SaysWhereHalfFloatsHoldLittleOfADimPicture) {
+  const ScratchFolder folder;
+  const auto range = [&](float brightest) {
+    Image image(2, 1, 4);
+    image.pixels = {brightest, 0, 1e-9f, 1, 0, 0, 0, 1};
+    return write_exr(folder.path / "dim.exr", {layer("", {"R", "G", "B", "A"}, true, image)}, {}, ap1_chromaticities);
+  };
+  EXPECT_FALSE(HalfRange{}.is_dim());  // black
+  EXPECT_TRUE(range(1e-9f).is_dim());
+  EXPECT_TRUE(range(9e-4f).is_dim());
+  EXPECT_FALSE(range(1e-3f).is_dim());
 }
 
 TEST(WriteExr, RefusesLayersThatDoNotFitTogether) {

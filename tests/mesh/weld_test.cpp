@@ -33,7 +33,8 @@ ControlMesh panels(double gap, double scale = 1) {
 TEST(Weld, SewnPiecesAreFoundAndJoinedAtAnySize) {
   for (const double scale : {1e-14, 1.0, 1e12}) {
     ControlMesh cage = panels(0, scale);
-    EXPECT_EQ(touching_text(touching_borders(cage)), "its 2 pieces touch along 3 edges but are not joined");
+    EXPECT_EQ(touching_text(touching_borders(cage)).rfind("its 2 pieces touch along 3 edges but are not joined: ", 0),
+              0u);
     const Touching welded = weld_borders(cage);
     EXPECT_EQ(welded.edges, 3);
     EXPECT_EQ(welded.vertices, 4);
@@ -75,8 +76,9 @@ TEST(Weld, ATubeThatTouchesItselfIsOnePiece) {
       text += fmt::format("v {} {} {}\n", std::cos(a), j, std::sin(a));
     }
   for (int i = 0; i < 6; ++i) text += fmt::format("f {} {} {} {}\n", i + 1, i + 2, i + 9, i + 8);
-  EXPECT_EQ(touching_text(touching_borders(parse_obj(text, "tube"))),
-            "its borders touch along 1 edge but are not joined");
+  EXPECT_EQ(touching_text(touching_borders(parse_obj(text, "tube")))
+                .rfind("its borders touch along 1 edge but are not joined", 0),
+            0u);
 }
 
 TEST(Weld, LayersThatLieOnOneAnotherStayApart) {
