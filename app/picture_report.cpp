@@ -269,7 +269,7 @@ void print_written(const PictureJob& job, const WrittenPicture& file) {
                                               : fmt::format("{}, {}", job.display.display, job.display.view);
   print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content,
                          size_text(file.bytes)));
-  warn_of_half_floats(file.path.string(), file.range, ", --env-exposure brightens the light");
+  warn_of_half_floats(file.path.string(), file.range, "; --env-exposure brightens the light");
 }
 
 void print_result_line(const PictureJob& job, const RenderResult& result) {

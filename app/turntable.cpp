@@ -260,6 +260,8 @@ int run_turntable(const std::vector<std::string>& words) {
     code = 128 + signal_received();
   } else if (!flags.sheet.empty() && !picture.dry_run) {
     endings.attempt([&] { write_sheet(flags, turntable, frames); });
+  } else if (!flags.sheet.empty()) {
+    print_note(fmt::format("would write {}  a sheet of all frames", flags.sheet));
   }
   if (!picture.dry_run) progress.done();
   code = endings.code(code);

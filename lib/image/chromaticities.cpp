@@ -93,8 +93,7 @@ Matrix3 rgb_to_xyz(const ColorManager::Chromaticities& space) {
     for (size_t row = 0; row < 3; ++row) m[row][i] *= scale[i];
   }
   if (!usable)
-    throw InputError("the chromaticities describe no colour space: expected three primaries around a white",
-                     "name the colour space by hand instead");
+    throw InputError("the chromaticities describe no colour space: expected three primaries around a white");
   return m;
 }
 

@@ -51,8 +51,8 @@ std::vector<double> numbers_of(const fs::path& path, const char* name, const std
 }
 
 double positive(const fs::path& path, const char* name, const std::string& value, double number) {
-  if (!(number > 1e-30))
-    refuse_picture(path, fmt::format("its header says {}={:.60}, expected a number above 0", name, value));
+  if (!(number > 1e-30 && number < 1e30))
+    refuse_picture(path, fmt::format("its header says {}={:.60}, expected a number from 1e-30 to 1e30", name, value));
   return number;
 }
 

@@ -73,13 +73,18 @@ std::string convert(Image& map, const fs::path& path, const LightFileInfo& info,
     return fmt::format("{} ({})", space, why);
   };
   if (!flag.empty()) return by_name(flag, "as asked");
-  if (info.xyz) {
-    xyz_to_working(map, info, colors);
-    return info.chromaticities ? "CIE XYZ, white of the file's chromaticities" : "CIE XYZ, D65 as white";
-  }
-  if (info.chromaticities) {
-    colors.chromaticities_to_working(map, *info.chromaticities);
-    return "linear, primaries and white of the file's chromaticities";
+  try {
+    if (info.xyz) {
+      xyz_to_working(map, info, colors);
+      return info.chromaticities ? "CIE XYZ, white of the file's chromaticities" : "CIE XYZ, D65 as white";
+    }
+    if (info.chromaticities) {
+      colors.chromaticities_to_working(map, *info.chromaticities);
+      return "linear, primaries and white of the file's chromaticities";
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.diagnostics.at(0).message),
+                     "--env-space NAME says what its colours are");
   }
   const bool integer = info.pixel_type.rfind("uint", 0) == 0 || info.pixel_type.rfind("int", 0) == 0;
   if (info.color_space == "sRGB")

@@ -192,7 +192,7 @@ TEST(Radiance, RefusesWhatIsDamagedByItsName) {
     EXPECT_NE(said.find(part), std::string::npos) << said;
   };
   expect(magic + "FORMAT=24-bit_yuv\n" + usual + pixels, "in the format 24-bit_yuv");
-  expect(magic + format + "EXPOSURE=0\n" + usual + pixels, "EXPOSURE=0, expected a number above 0");
+  expect(magic + format + "EXPOSURE=0\n" + usual + pixels, "EXPOSURE=0, expected a number from 1e-30 to 1e30");
   expect(magic + format + "EXPOSURE=lots\n" + usual + pixels, "EXPOSURE=lots, expected 1 number");
   expect(magic + format + "PRIMARIES=1 2 3\n" + usual + pixels, "expected 8 numbers");
   expect(magic + format + "\n-Y 9\n" + pixels, "without a resolution string");

@@ -94,6 +94,17 @@ TEST(ReadEnvironment, TakesTheColourSpaceFromFlagThenChromaticitiesThenTheUsual)
   EXPECT_NEAR(read(exr, "lin_rec709", space).x, 0.613097f, 1e-5f);
   EXPECT_EQ(space, "lin_rec709 (as asked)");
   EXPECT_THROW(read(exr, "lin_rec708", space), InputError);
+  write_map(exr, red, {});
+  EXPECT_NEAR(read(exr, "lin_rec709", space).x, 0.613097f, 1e-5f);
+  try {
+    read(exr, "", space);
+    ADD_FAILURE() << "primaries of zeros were read as " << space;
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics.at(0).message, exr.string() +
+                                                   ": the chromaticities describe no colour space: "
+                                                   "expected three primaries around a white");
+    EXPECT_NE(error.diagnostics.at(0).help.find("--env-space"), std::string::npos);
+  }
   Image grey(4, 2, 3);
   for (float& v : grey.pixels) v = 128 / 255.0f;
   write_display_image(png, grey);
