@@ -52,6 +52,22 @@ TEST(Outputs, AFileThatGrowsTooLargeIsAFailureThatCostsNoOther) {
   EXPECT_EQ(files_in(folder), 3);
 }
 
+TEST(Outputs, EveryKindOfFileThatGrowsTooLargeIsToldInTheSystemsWords) {
+  const Folder folder;
+  std::vector<std::string> words = plain({"-r", "200", "150"});
+  const std::vector<std::string> kinds{"png", "jpg", "tif", "exr"};
+  for (const std::string& kind : kinds) words.insert(words.end(), {"-o", "a." + kind});
+  Finished run;
+  {
+    const ResourceLimit limit(RLIMIT_FSIZE, 2'000);
+    run = run_sateen(words, {folder.path});
+  }
+  EXPECT_EQ(run.code, 1) << run.err;
+  for (const std::string& kind : kinds)
+    EXPECT_NE(run.err.find("error: a." + kind + ": not written: File too large\n"), std::string::npos) << run.err;
+  EXPECT_EQ(files_in(folder), 0);
+}
+
 TEST(Outputs, ASignalsCodeStaysWhereAnOutputFails) {
   const Folder folder;
   Start start;

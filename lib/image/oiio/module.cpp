@@ -3,8 +3,10 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -12,6 +14,7 @@
 #include "image/attributes.h"
 #include "image/bands.h"
 #include "image/dither.h"
+#include "image/oiio/checked_proxy.h"
 
 namespace sateen {
 
@@ -245,20 +248,27 @@ void write_codes(const fs::path& path, const OIIO::ImageSpec& spec, const CodeRo
       [&](const fs::path& temporary) {
         const auto output = OIIO::ImageOutput::create(temporary.string());
         if (!output) throw OperationError("no writer for this kind of file" + because(OIIO::geterror()));
+        std::optional<CheckedProxy> file;
+        // libtiff reads what it has written, and its failures do not end the program.
+        if (std::string(output->format_name()) != "tiff") output->set_ioproxy(&file.emplace(temporary));
         if (!output->open(temporary.string(), spec))
           throw OperationError("cannot be opened for writing" + because(output->geterror()));
-        // A PNG on a full disk reports success from all calls and only leaves a text behind.
+        // Some failures are reported as success by all calls and only leave a text behind.
         bool wrote = true;
-        std::string write_error;
-        for (int y0 = 0; y0 < spec.height && wrote && write_error.empty(); y0 += rows.step()) {
+        std::string error;
+        errno = 0;
+        for (int y0 = 0; y0 < spec.height && wrote && error.empty(); y0 += rows.step()) {
           const int y1 = std::min(y0 + rows.step(), spec.height);
           wrote = output->write_scanlines(y0, y1, 0, type, rows.at(y0, y1).data());
-          write_error = output->geterror();
+          error = output->geterror();
         }
         const bool closed = output->close();
-        const std::string close_error = output->geterror();
-        if (!wrote || !closed || !write_error.empty() || !close_error.empty())
-          throw OperationError("writing failed" + because(write_error.empty() ? close_error : write_error));
+        const int system = errno;
+        if (error.empty()) error = output->geterror();
+        if (file) file->finish();
+        if (wrote && closed && error.empty()) return;
+        const bool no_room = system == ENOSPC || system == EFBIG || system == EDQUOT || system == EIO;
+        throw OperationError(no_room ? std::strerror(system) : "writing failed" + because(error));
       },
       [&](const fs::path& temporary) { verify_display(temporary, rows, type, lossless); });
 }
