@@ -10,6 +10,7 @@
 #include "console.h"
 #include "film/develop.h"
 #include "render/memory.h"
+#include "render/picture.h"
 
 namespace sateen::app {
 
@@ -70,19 +71,36 @@ void check_film_memory(const PictureFlags& f) {
   if (film_bytes(size) > room.bytes) refuse(f, size, picture_bytes(size), 0, room);
 }
 
-void check_picture_memory(const PictureFlags& f, bool with_layers, bool film_there) {
+void check_picture_memory(const PictureFlags& f, const DisplaySettings& display, const ColorManager& colors,
+                          bool with_layers, bool film_there) {
   const PictureSize size = size_of(f, with_layers);
   // What will be needed at the end had better fail now, and counts.
-  for (const std::string& output : f.outputs)
-    if (!is_exr(output)) load_display_writer();
+  const bool shown = std::any_of(f.outputs.begin(), f.outputs.end(), [](const auto& o) { return !is_exr(o); });
+  const bool billed = f.bill || !f.stats.empty();
+  if (shown) load_display_writer();
+  if (shown || billed) develop_display(Image(1, 1, 3), colors, display, 0);
   const MemoryRoom room = memory_room();
-  // The bill's pictures, and the display's colours that they are shown in: most of it where nothing else is.
-  const std::int64_t bill = f.bill || !f.stats.empty() ? std::int64_t(16) << 20 : 0;
+  const std::int64_t bill = billed ? std::int64_t(2) << 20 : 0;  // small pictures
   const std::int64_t bytes = picture_bytes(size) + bill - (film_there ? film_bytes(size) : 0);
   const MemoryUse use = memory_use();
   print_detail(fmt::format("memory: {} now, {} at most so far, {} foreseen", memory_text(use.resident),
                            memory_text(use.peak), memory_text(std::max(use.resident + bytes, use.peak))));
   if (bytes > room.bytes) refuse(f, size, bytes, use.resident, room);
+}
+
+void check_merge_memory(const std::vector<std::string>& checkpoints) {
+  std::int64_t largest = 0;
+  for (const std::string& path : checkpoints) {
+    std::error_code error;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (!error) largest = std::max(largest, std::int64_t(bytes));
+  }
+  const MemoryRoom room = memory_room();
+  if (2 * largest > room.bytes)
+    throw InputError(
+        fmt::format("to join two checkpoints takes {}, and {}, of which {} are left", memory_text(2 * largest),
+                    room.limit, memory_text(std::max<std::int64_t>(room.bytes, 0))),
+        "merge them on a machine with more memory");
 }
 
 }  // namespace sateen::app

@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_code.h"
+#include "memory.h"
 #include "outputs.h"
 #include "picture_report.h"
 #include "render.h"
@@ -40,6 +41,7 @@ int run_merge(const std::vector<std::string>& words) {
   check_not_read(to_write, to_read);
   for (const NamedFile& file : to_write) check_can_write(file.path);
 
+  check_merge_memory(inputs);
   const Checkpoint sum = merge_checkpoints({inputs.begin(), inputs.end()});
   RenderFlags flags;
   read_render_flags(sum.words, flags);
@@ -52,6 +54,7 @@ int run_merge(const std::vector<std::string>& words) {
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;
   job.first_sample = int(sum.film.first_sample);
+  check_picture_memory(p, job.display, colors, !sum.film.layers.empty(), true);
   check_same_job(inputs[0], sum.facts, sampling_facts(job, report));
 
   RenderResult result;

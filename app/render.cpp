@@ -120,7 +120,7 @@ void start(Work& work) {
   const RenderFlags& f = work.flags;
   Checkpoint& state = work.state;
   if (f.resume.empty()) {
-    state.film = Film(work.job.scene.width, work.job.scene.height, keeps_layers(f));
+    if (!f.picture.dry_run) state.film = Film(work.job.scene.width, work.job.scene.height, keeps_layers(f));
     state.film.first_sample = std::uint32_t(f.first_sample);
     state.facts = sampling_facts(work.job, work.report);
     state.words = work.words;
@@ -234,10 +234,13 @@ int run_render(const std::vector<std::string>& words) {
   if (!all.resume.empty()) warn_of_tighter_plan(job.plan, flags.render.stop.error);
   print_scene(flags, job, report);
   if (!report_verdicts(job.plan, job.verdicts)) return failed;
-  if (!flags.dry_run) {
+  try {
     const Film& film = begun.film;
     const bool there = !film.pixels.empty();
-    check_picture_memory(flags, there ? !film.layers.empty() : keeps_layers(all), there);
+    check_picture_memory(flags, job.display, colors, there ? !film.layers.empty() : keeps_layers(all), there);
+  } catch (const InputError& error) {
+    if (!flags.dry_run) throw;
+    print_warning("this machine would refuse it: " + error.diagnostics.at(0).message);
   }
   Work work{all, words, job, report, colors, std::move(begun)};
   start(work);

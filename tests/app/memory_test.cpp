@@ -53,6 +53,29 @@ TEST(Memory, WhatIsForeseenIsWhatIsTaken) {
 
 // The sanitizers' addresses are no measure.
 #if !defined(__SANITIZE_ADDRESS__)
+TEST(Memory, ADryRunTakesNoneOfThePicturesAndSaysThatItWouldNotFit) {
+  const Folder folder;
+  const ResourceLimit limit(RLIMIT_AS, 1'000'000'000);
+  const Finished run =
+      run_sateen(large({"-r", "6000", "6000", "-t", "1", "-o", "a.exr", "--dry-run"}), {folder.path});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("this machine would refuse it: --res 6000 6000 takes "), std::string::npos) << run.err;
+}
+
+TEST(Memory, CheckpointsThatDoNotFitAreNotReadToBeMerged) {
+  const Folder folder;
+  for (const char* name : {"a", "b"}) {
+    write_text(folder / name, "");
+    std::filesystem::resize_file(folder / name, 4'000'000'000);  // sparse
+  }
+  const ResourceLimit limit(RLIMIT_AS, 2'000'000'000);
+  const Finished run = run_sateen({"merge", "a", "b", "-o", "a.png"}, {folder.path});
+  EXPECT_EQ(run.code, 2) << run.err;
+  EXPECT_NE(run.err.find("error: to join two checkpoints takes 8.0 GB, and ulimit -v allows 2.0 GB"),
+            std::string::npos)
+      << run.err;
+}
+
 TEST(Memory, APictureThatDoesNotFitIsRefusedBeforeItIsRenderedAndOneThatFitsIsWritten) {
   const Folder folder;
   Finished run;
