@@ -170,10 +170,11 @@ std::vector<NamedFile> inputs_of(const RenderFlags& flags) {
 }
 
 /// A picture goes on with the effects that it began with, even where a tighter error calls for more.
-void warn_of_tighter_plan(const Plan& plan, double error_asked) {
-  const double error = error_asked > 0 ? error_asked : default_plan_error;
-  const std::optional<Interval>& loss = plan.of(Effect::interreflection).loss;
-  if (!loss || plan.bounces >= tracked_bounces || loss->low <= plan_allowance * error) return;
+void warn_of_tighter_plan(const Plan& plan, double error) {
+  const PlannedEffect& interreflection = plan.of(Effect::interreflection);
+  const std::optional<Interval>& loss = interreflection.loss;
+  if (!(error > 0) || interreflection.basis == Basis::asked || plan.bounces >= tracked_bounces) return;
+  if (!loss || loss->low <= plan_allowance * error) return;
   print_warning(fmt::format(
       "an error of {:.3g} % calls for more than {} bounces, without which E is off by {:.3g} %; the picture "
       "goes on as it began, and its error does not count that: render it anew to have it",
@@ -231,7 +232,6 @@ int run_render(const std::vector<std::string>& words) {
   const Scene& scene = assembly.scene;
   PictureJob& job = assembly.job;
   job.first_sample = all.first_sample;
-  if (!all.resume.empty()) warn_of_tighter_plan(job.plan, flags.render.stop.error);
   print_scene(flags, job, report);
   if (!report_verdicts(job.plan, job.verdicts)) return failed;
   try {
@@ -244,6 +244,7 @@ int run_render(const std::vector<std::string>& words) {
   }
   Work work{all, words, job, report, colors, std::move(begun)};
   start(work);
+  if (!all.resume.empty()) warn_of_tighter_plan(job.plan, flags.render.stop.error);
   work.references = references_of(flags, job, scene, colors);
   if (flags.dry_run) return report_dry_run(flags, job, report);
 

@@ -45,7 +45,7 @@ double read_duration(const std::string& what, const std::string& text) {
   constexpr double longest = 1e7;
   const std::string typed = without_blanks(text);
   std::string_view left = typed;
-  double total = 0;
+  double total = 0, last = longest;
   bool good = !left.empty();
   while (good && !left.empty()) {
     double value = 0;
@@ -55,7 +55,8 @@ double read_duration(const std::string& what, const std::string& text) {
     left.remove_prefix(size_t(next - left.data()));
     const std::string_view unit = letters_at(left);
     const double seconds = unit.empty() && left.empty() ? 1 : unit_seconds(unit);
-    good = good && seconds > 0;
+    good = good && seconds > 0 && seconds < last;  // hours before minutes before seconds
+    last = seconds;
     total += value * seconds;
     left.remove_prefix(unit.size());
   }

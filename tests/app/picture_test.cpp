@@ -334,6 +334,29 @@ TEST(Render, GoesOnFromACheckpointToTheBitsOfARenderThatNeverStopped) {
   EXPECT_EQ(run_sateen(tiny({"-o", "b.exr", "--resume", "a.exr"}), here).code, 3);
 }
 
+TEST(Render, APictureThatGoesOnIsToldOfMoreBouncesOnlyWhereAnErrorAsksForThem) {
+  const Folder folder;
+  const Start here{folder.path};
+  const auto drape = [](std::vector<std::string> more) {
+    std::vector<std::string> words{"render", "-m", "drape", "--level", "0", "-r", "48", "27", "--candidates", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const std::string told = "calls for more than";
+  ASSERT_EQ(run_sateen(drape({"-s", "4", "--bounces", "0", "-o", "a.png", "--checkpoint", "direct"}), here).code, 0);
+  ASSERT_EQ(run_sateen(drape({"-s", "4", "--error", "0.3", "-o", "a.png", "--checkpoint", "planned"}), here).code,
+            4);  // coarser than asked
+  const auto goes_on = [&](const char* checkpoint, std::vector<std::string> more) {
+    more.insert(more.end(), {"-s", "8", "-o", "b.png", "--resume", checkpoint});
+    return run_sateen(drape(more), here).err;
+  };
+  EXPECT_EQ(goes_on("direct", {"--bounces", "0"}).find(told), std::string::npos);
+  EXPECT_EQ(goes_on("direct", {"--bounces", "0", "--error", "0.01"}).find(told), std::string::npos)
+      << "asked by hand";
+  EXPECT_EQ(goes_on("planned", {}).find(told), std::string::npos);
+  EXPECT_NE(goes_on("planned", {"--error", "0.002"}).find(told), std::string::npos);
+}
+
 TEST(Render, APictureThatWentOnSaysWhoDecidedAsOneThatNeverStopped) {
   const Folder folder;
   const Start here{folder.path};
