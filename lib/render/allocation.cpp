@@ -1,6 +1,7 @@
 #include "render/allocation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int first_barrier = 16;  // fewer know too little of the error to deal by it
 constexpr double least_share = 1.0 / 16;
+constexpr double root_1_5 = 1.2247448713915890, root_3 = 1.7320508075688772;
 constexpr int radius = 2;  // of the neighbourhood: 24 pixels of 3 degrees of freedom each
 
 double squared(double x) {
@@ -59,13 +61,77 @@ std::vector<double> noise_around(const Film& film, const ErrorScale& scale) {
 // between E is up to a tenth larger than the number of samples says.
 double even_number(double samples) {
   if (samples < 6) return 4;
-  const double power = std::ldexp(1.0, std::ilogb(samples)), ratio = samples / power;
-  return ratio < std::sqrt(1.5) ? power : ratio < std::sqrt(3.0) ? 1.5 * power : 2 * power;
+  constexpr std::uint64_t digits = (std::uint64_t(1) << 52) - 1;
+  const auto bits = std::bit_cast<std::uint64_t>(samples);
+  const double power = std::bit_cast<double>(bits & ~digits), ratio = samples / power;
+  return ratio < root_1_5 ? power : ratio < root_3 ? 1.5 * power : 2 * power;
 }
 
-// Samples of a pixel of that weight when a weight of 1 gets `scale`.
-double share(double weight, double scale, double before, double least) {
-  return std::max(even_number(std::max(weight * scale, least)), before);
+/// Pixels among which samples are dealt out in proportion to their weights.
+struct Shares {
+  std::vector<double> weights;
+  std::vector<double> before;  ///< samples that they have
+  double least = 0;            ///< and that each shall have
+
+  size_t size() const { return weights.size(); }
+  /// Samples of pixel i when a weight of 1 gets `scale`: a whole number that grows with it, so that sums are exact.
+  double of(size_t i, double scale) const {
+    return std::max(even_number(std::max(weights[i] * scale, least)), before[i]);
+  }
+  double sum(double scale) const {
+    double total = 0;
+    for (size_t i = 0; i < size(); ++i) total += of(i, scale);
+    return total;
+  }
+  void add(const Shares& from, size_t i) {
+    weights.push_back(from.weights[i]);
+    before.push_back(from.before[i]);
+  }
+};
+
+/// The largest scale found by halving [0, most] sixty times of which `is_less` says that it deals out too little.
+template <class Less>
+double halved(double most, const Less& is_less) {
+  double low = 0, high = most;
+  for (int step = 0; step < 60; ++step) {
+    const double scale = (low + high) / 2;
+    (is_less(scale) ? low : high) = scale;
+  }
+  return low;
+}
+
+/// The scale at which the shares add up to what is wanted, or just below. A sixty-fourth of the pixels says about
+/// where it lies; there few shares change, and only these are added up again and again.
+double scale_for(const Shares& shares, double wanted) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double weight : shares.weights)
+    if (weight > 0) smallest = std::min(smallest, weight);
+  const double most = 2 * wanted / smallest;
+  constexpr size_t stride = 61;
+  Shares few{{}, {}, shares.least};
+  for (size_t i = 0; i < shares.size(); i += stride) few.add(shares, i);
+  const double part = wanted * double(few.size()) / double(shares.size());
+  const double about = halved(most, [&](double scale) { return few.sum(scale) < part; });
+  const double tiny = most * 1e-18;  // below what sixty halvings tell apart
+  double low = about, high = std::max(about, tiny);
+  double margin = 1.01;
+  do low = low / margin, margin *= margin;
+  while (low > tiny && shares.sum(low) >= wanted);
+  margin = 1.01;
+  do high = high * margin, margin *= margin;
+  while (high < most && shares.sum(high) < wanted);
+  if (!(low > tiny)) low = 0;
+  Shares open{{}, {}, shares.least};
+  double settled = 0;
+  for (size_t i = 0; i < shares.size(); ++i) {
+    const double at_low = shares.of(i, low);
+    if (at_low == shares.of(i, high))
+      settled += at_low;
+    else
+      open.add(shares, i);
+  }
+  return halved(most,
+                [&](double scale) { return scale <= low || (scale < high && settled + open.sum(scale) < wanted); });
 }
 
 // Up to a hundredth more for some pixels, evenly mixed, so that not all of one weight take a step at once.
@@ -101,28 +167,18 @@ std::vector<std::uint32_t> allocate(const Film& film, const Crop& crop, int barr
     return targets;
   }
 
-  std::vector<double> weights(count);
+  Shares shares{std::vector<double>(count), std::vector<double>(count), double(barrier) * least_share};
   const std::vector<double> noise = noise_around(film, scale);
-  for (size_t i = 0; i < count; ++i) weights[i] = std::sqrt(noise[pixel_at(i)]);
+  for (size_t i = 0; i < count; ++i) {
+    shares.weights[i] = std::sqrt(noise[pixel_at(i)]);
+    shares.before[i] = double(film.pixels[pixel_at(i)].samples);
+  }
   // No noise anywhere: all the same.
+  std::vector<double>& weights = shares.weights;
   if (*std::max_element(weights.begin(), weights.end()) == 0) std::fill(weights.begin(), weights.end(), 1.0);
   for (size_t i = 0; i < count; ++i) weights[i] = dithered(weights[i], i, width);
-  const double wanted = double(barrier) * double(count), least = double(barrier) * least_share;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const double weight : weights)
-    if (weight > 0) smallest = std::min(smallest, weight);
-  // The scale at which the shares add up to what is wanted lies between these two.
-  double low = 0, high = 2 * wanted / smallest;
-  for (int step = 0; step < 60; ++step) {
-    const double factor = (low + high) / 2;
-    double sum = 0;
-    for (size_t i = 0; i < count; ++i)
-      sum += share(weights[i], factor, double(film.pixels[pixel_at(i)].samples), least);
-    (sum < wanted ? low : high) = factor;
-  }
-  for (size_t i = 0; i < count; ++i) {
-    targets[pixel_at(i)] = std::uint32_t(share(weights[i], low, double(film.pixels[pixel_at(i)].samples), least));
-  }
+  const double factor = scale_for(shares, double(barrier) * double(count));
+  for (size_t i = 0; i < count; ++i) targets[pixel_at(i)] = std::uint32_t(shares.of(i, factor));
   return targets;
 }
 

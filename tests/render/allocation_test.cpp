@@ -54,6 +54,29 @@ TEST(Allocation, OfEqualNoiseKeepsTheMeanThoughItTakesSteps) {
   }
 }
 
+// Weights over many orders, some pixels with far more samples than their share, strips of one kind that a coarse look
+// at the picture meets too often or never.
+TEST(Allocation, AddsUpToTheMeanHoweverUnlikeThePixelsAre) {
+  for (const int kind : {0, 1, 2, 3}) {
+    Film film(kind == 3 ? 1 : 183, kind == 3 ? 7 : 122, false);  // three times 61 pixels a row
+    std::mt19937 random(7);
+    std::lognormal_distribution<float> wide(0, 4);
+    for (size_t k = 0; k < film.pixels.size(); ++k) {
+      const float spread = kind == 1 ? (k % 61 == 0 ? 100.0f : 1.0f) : wide(random);
+      const int samples = kind == 2 && k % 50 == 0 ? 400 : 16;
+      for (int i = 0; i < samples; ++i)
+        add_sample(film.pixels[k], Color(10 + spread * float((i + int(k)) % 4)), 1, film.grain);
+    }
+    for (const int barrier : {32, 48, 1024}) {
+      const std::vector<std::uint32_t> targets = allocate(film, {}, barrier, true);
+      const double wanted = double(barrier) * double(targets.size());
+      const double sum = std::accumulate(targets.begin(), targets.end(), 0.0);
+      EXPECT_LE(sum, wanted) << kind << " " << barrier;
+      EXPECT_GT(sum, (kind == 3 ? 0.6 : 0.97) * wanted) << kind << " " << barrier;
+    }
+  }
+}
+
 TEST(Allocation, IsTheSameEverywhereWhereItIsUniform) {
   const Film film = half_noisy_film();
   for (const std::uint32_t target : allocate(film, {}, 48, false)) EXPECT_EQ(target, 48u);
