@@ -152,7 +152,9 @@ class Turntable {
     const std::optional<References> references = references_of(flags_.picture, frame.job, scene_, colors_);
     if (references) content.overlay = &references->overlay;
     const bool partial = result.reason == StopReason::interrupted;
-    pictures = write_pictures(partial ? names_for_partial(files) : files, content, colors_, job_.render.threads);
+    // Whoever waits for a frame shall not find the beginning of one, even where none is there yet.
+    if (!partial || result.samples > 0)
+      pictures = write_pictures(partial ? partial_names(files, true) : files, content, colors_, job_.render.threads);
     return result;
   }
 

@@ -78,7 +78,9 @@ Image develop_beauty(const Film& film, int y0, int y1) {
   for (size_t i = size_t(y0) * size_t(film.width), end = size_t(y1) * size_t(film.width); i < end; ++i, to += 4) {
     const FilmPixel& pixel = film.pixels[i];
     put(pixel_mean(pixel), to);
-    to[3] = pixel.samples == 0 ? 0 : film.opaque ? 1 : float(pixel_coverage(pixel));
+    // What a catcher catches is a ratio, whose noise passes 1: laid over a plate that would make light negative.
+    const double alpha = pixel.samples == 0 ? 0 : film.opaque ? 1 : pixel_coverage(pixel);
+    to[3] = float(std::clamp(alpha, 0.0, 1.0));
   }
   return image;
 }

@@ -48,30 +48,36 @@ void VertexValues::add(std::uint32_t vertex, const SurfaceSample& s) {
 }
 
 void VertexValues::mend_normals() {
-  // Where no face has a tangent plane, the pieces around the vertex still have areas.
-  std::vector<std::uint32_t> bad;
-  for (std::uint32_t i = 0; i < mesh_.normals.size(); ++i) {
-    constexpr float cancelled = 1e-3f;
-    if (!(dot(mesh_.normals[i], mesh_.normals[i]) > cancelled * cancelled)) bad.push_back(i);
-  }
-  if (bad.empty()) return;
-  std::vector<bool> is_bad(mesh_.normals.size(), false);
-  for (const std::uint32_t i : bad) {
-    is_bad[i] = true;
-    mesh_.normals[i] = zero;
-  }
-  for (const std::array<std::uint32_t, 4>& q : mesh_.quads) {
-    if (!is_bad[q[0]] && !is_bad[q[1]] && !is_bad[q[2]] && !is_bad[q[3]]) continue;
-    const Vec3 area = safe_unit(
-        cross(mesh_.positions[q[2]] - mesh_.positions[q[0]], mesh_.positions[q[3]] - mesh_.positions[q[1]]));
-    for (size_t k = 0; k < (q[2] == q[3] ? 3u : 4u); ++k)
-      if (is_bad[q[k]]) mesh_.normals[q[k]] += area;
-  }
+  // The pieces around a vertex have areas, too: they say where no face has a tangent plane. Where two faces share
+  // more than half a turn about a sharp corner, as at a hole that was cut, the limit's tangents run along the borders
+  // and their cross product points backwards, and the pieces beside it fold over: there a wider ring decides.
+  const size_t count = mesh_.normals.size();
+  std::vector<Vec3> ways(count, zero), areas(count, zero), wide(count, zero);
+  const auto each = [&](const auto& use) {
+    for (const std::array<std::uint32_t, 4>& q : mesh_.quads) use(q, q[2] == q[3] ? 3u : 4u);
+  };
+  each([&](const auto& q, size_t corners) {
+    const Vec3 area =
+        cross(mesh_.positions[q[2]] - mesh_.positions[q[0]], mesh_.positions[q[3]] - mesh_.positions[q[1]]);
+    for (size_t k = 0; k < corners; ++k) ways[q[k]] += safe_unit(area), areas[q[k]] += area;
+  });
+  each([&](const auto& q, size_t corners) {
+    Vec3 sum(0, 0, 0);
+    for (size_t k = 0; k < corners; ++k) sum += areas[q[k]];
+    for (size_t k = 0; k < corners; ++k) wide[q[k]] += sum;
+  });
   int made_up = 0;
-  for (const std::uint32_t i : bad) {
-    if (dot(mesh_.normals[i], mesh_.normals[i]) > 1e-6f) continue;
-    mesh_.normals[i] = Vec3(0, 1, 0);
-    ++made_up;
+  for (size_t i = 0; i < count; ++i) {
+    Vec3& normal = mesh_.normals[i];
+    constexpr float cancelled = 1e-3f, backwards = -0.5f;
+    const float size = length(normal);
+    if (!(size > cancelled)) {
+      const bool has_way = dot(ways[i], ways[i]) > 1e-6f;
+      normal = has_way ? ways[i] : Vec3(0, 1, 0);
+      made_up += !has_way;
+    } else if (const float room = length(wide[i]); dot(normal, wide[i]) < backwards * size * room) {
+      normal = wide[i];
+    }
   }
   if (made_up)
     mesh_.warnings.push_back(fmt::format("{} {} no normal and {} given +Y", made_up,

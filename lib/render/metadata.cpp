@@ -209,7 +209,7 @@ bool may_give_way(const std::filesystem::path& path) {
 }
 }  // namespace
 
-std::vector<std::string> partial_names(const std::vector<std::string>& paths) {
+std::vector<std::string> partial_names(const std::vector<std::string>& paths, bool always) {
   std::vector<std::string> names;
   for (const std::string& path : paths) {
     std::filesystem::path name = path;
@@ -217,7 +217,7 @@ std::vector<std::string> partial_names(const std::vector<std::string>& paths) {
       return name != path && (std::find(paths.begin(), paths.end(), name.string()) != paths.end() ||
                               std::find(names.begin(), names.end(), name.string()) != names.end());
     };
-    while (taken() || !may_give_way(name))
+    while (taken() || (always && name == path) || !may_give_way(name))
       name.replace_filename(name.stem().string() + ".partial" + name.extension().string());
     names.push_back(name.string());
   }

@@ -106,6 +106,20 @@ TEST(CutPolygon, TwoHolesAndAConcavePanelWork) {
              18);
 }
 
+// Where two faces meet in a sharp corner of more than half a turn, as at a hole that was cut, the limit's tangents
+// run along the two borders and their cross product points backwards.
+TEST(CutPolygon, NormalsOfAFlatPanelAllPointOneWay) {
+  const std::string corner = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4\nf 1 4 5 6\n";
+  const std::string hole =
+      "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\nf 1 2 3 4 1 5 6 7 8 5\n";
+  const auto expect = [](const std::string& text, int level) {
+    const Mesh mesh = subdivide(parse_obj(text, "panel.obj"), level, 1);
+    for (const Vec3& n : mesh.normals) ASSERT_GT(n.z, 0.999f) << level << "\n" << text;
+  };
+  for (const std::string& text : {hole, corner, corner + "t corner 1/1/0 3 10.0\n"})
+    for (const int level : {0, 1, 2, 3}) expect(text, level);
+}
+
 TEST(CutPolygon, RoundHolesInARowWork) {
   std::vector<Vec2> points{{0, 0}, {20, 0}, {20, 2}, {0, 2}};
   std::vector<int> corners{1};
