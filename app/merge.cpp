@@ -12,6 +12,33 @@
 
 namespace sateen::app {
 
+namespace {
+/// The command line of one render of all that was merged.
+std::vector<std::string> words_of_whole(const std::vector<std::string>& words, int samples) {
+  std::vector<std::string> whole;
+  size_t last_samples = 0;  // behind the last of several, which counts
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string name = words[i].substr(0, words[i].find('='));
+    const bool value_follows = name.size() == words[i].size() && i + 1 < words.size();
+    const bool of_samples = name == "-s" || name == "--spp";
+    if (name == "--samples-from") {
+      i += value_follows;
+      continue;
+    }
+    whole.push_back(of_samples ? name : words[i]);
+    if (!of_samples) continue;
+    whole.push_back(value_follows ? words[++i] : words[i].substr(name.size() + 1));
+    last_samples = whole.size();
+  }
+  if (last_samples == 0) {
+    whole.insert(whole.end(), {"-s", ""});
+    last_samples = whole.size();
+  }
+  whole[last_samples - 1] = std::to_string(samples);
+  return whole;
+}
+}  // namespace
+
 int run_merge(const std::vector<std::string>& words) {
   std::vector<std::string> inputs, outputs;
   std::string checkpoint;
@@ -49,7 +76,8 @@ int run_merge(const std::vector<std::string>& words) {
   p.outputs = outputs;
   p.verify_plan = false;
   keep_strategy(p, sum.facts);
-  auto [colors, report, scene, job] = assemble_picture(p, recorded_line("merge", words), &sum);
+  auto [colors, report, scene, job] =
+      assemble_picture(p, recorded_line("render", words_of_whole(sum.words, sum.course.samples)), &sum);
   check_not_read(to_write, config_input(p.ocio));
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;

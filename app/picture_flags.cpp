@@ -96,7 +96,8 @@ void add_quality(Command& c, PictureFlags& f) {
       [&stop](const std::string& text) { stop.seconds = read_duration("--time", text); },
       "wall clock of the whole program, setting up and writing included: 30, 30s, 2m, 1h30m, 2 min");
   c.flag("--adaptive", f.adaptive, "samples go where the error is (default but with --spp alone)");
-  c.integer("--seed", "N", f.seed, 0, 0x7fffffff, "another seed is another noise, of the pilots that plan the picture, too (default: 1)");
+  c.integer("--seed", "N", f.seed, 0, 0x7fffffff,
+            "another seed is another noise, of the pilots that plan the picture, too (default: 1)");
   c.integer("-t,--threads", "N", f.render.threads, 0, 4096, "0: all that this process may use (default)");
   c.text("--strategy", "NAME", f.strategy,
          fmt::format("how light is sampled (default: {}): {}", strategy_name(f.render.light.strategy),

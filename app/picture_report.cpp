@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "console.h"
 #include "exit_code.h"
+#include "mesh/check_cage.h"
 #include "render/candidates.h"
 #include "signals.h"
 
@@ -78,7 +79,7 @@ std::string reason_text(const StopRules& stop, const RenderResult& result) {
 }
 
 std::string percent_text(double share) {
-  return fmt::format("{:.2g} %", 100 * share);
+  return share < 0.995 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
 // One unit for the three, and no more digits than the interval deserves.
@@ -146,8 +147,8 @@ void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneRe
   const SceneSettings& s = job.scene;
   print_note(fmt::format("{} on {} under {}, {} x {}", report.look.name, s.mesh, s.environment, s.width, s.height));
   print_note(fmt::format("level {}, {} triangles; exposure {:+.2f} EV{}; {}", report.level,
-                         count_text(report.triangles), job.exposure_ev, flags.exposure_ev ? "" : " (metered)",
-                         rules_text(job.render.stop)));
+                         count_text(report.triangles), std::round(job.exposure_ev * 100) / 100 + 0.0f,
+                         flags.exposure_ev ? "" : " (metered)", rules_text(job.render.stop)));
   print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
                            job.display.display, job.display.view));
   const PlannedEffect& bounces = job.plan.of(Effect::interreflection);
@@ -265,8 +266,9 @@ void warn_of_half_floats(const std::string& file, const HalfRange& range, const 
 }
 
 void print_written(const PictureJob& job, const WrittenPicture& file) {
-  const std::string content = file.layers > 0 ? fmt::format("{} layers, {}", file.layers, job.working_space)
-                                              : fmt::format("{}, {}", job.display.display, job.display.view);
+  const std::string content = file.layers > 0
+                                  ? fmt::format("{}, {}", counted(file.layers, "layer"), job.working_space)
+                                  : fmt::format("{}, {}", job.display.display, job.display.view);
   print_note(fmt::format("wrote {}  {} x {}, {}, {}", file.path.string(), file.width, file.height, content,
                          size_text(file.bytes)));
   warn_of_half_floats(file.path.string(), file.range, "; --env-exposure brightens the light");
@@ -278,6 +280,9 @@ void print_result_line(const PictureJob& job, const RenderResult& result) {
   if (result.error.known && result.error.error > 0)
     print_note(
         fmt::format("95 % of the cloth's pixels are within {} of their final value", percent_text(result.deviation)));
+  if (result.reason == StopReason::time && !result.error.known)
+    print_warning(fmt::format("{} were over before every pixel had two samples: setting up and writing count",
+                              seconds_text(job.render.stop.seconds)));
   if (const Promise& p = result.promise; p.made && result.reason != StopReason::interrupted)
     print_note(fmt::format("promised: {}, {:.1f} CPU-s; it took {}, {:.1f} CPU-s", forecast_text(p.seconds),
                            p.cpu_seconds.value, seconds_text(result.total_seconds), result.total_cpu_seconds));

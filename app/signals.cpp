@@ -13,7 +13,11 @@ std::atomic<int> received = 0;
 std::atomic<int> guards = 0;
 
 void on_signal(int number) {
-  if (guards.load() == 0 || received.exchange(number) != 0) {
+  int none = 0;
+  const bool again = !received.compare_exchange_strong(none, number);
+  // Closing terminals and schedulers repeat themselves; who types Ctrl-C twice does not want to wait for files.
+  if (again && number != SIGINT) return;
+  if (guards.load() == 0 || again) {
     static const char message[] = "\nstopped\n";
     const auto ignored = write(STDERR_FILENO, message, sizeof message - 1);
     (void)ignored;

@@ -73,7 +73,10 @@ Interval light_share(std::span<const PixelLoss> pixels) {
 }
 
 std::string percent_text(const Interval& share) {
-  return fmt::format("{:.3g} % ({:.3g} to {:.3g})", 100 * share.value, 100 * share.low, 100 * share.high);
+  const auto text = [](double s) {
+    return s < 9.995 ? fmt::format("{:.3g}", 100 * s) : fmt::format("{:.0f}", 100 * s);
+  };
+  return fmt::format("{} % ({} to {})", text(share.value), text(share.low), text(share.high));
 }
 
 }  // namespace sateen

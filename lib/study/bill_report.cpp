@@ -15,8 +15,8 @@ Table bill_table(const Bill& bill) {
   };
   for (const BillItem& item : bill.items) {
     const EffectInfo& info = effect_info(item.effect);
-    table.rows.push_back({info.name, share(item.time_share), share(item.variance_share),
-                          percent_text(item.loss), fmt::format("{:.0f} of 255", item.visible), info.what});
+    table.rows.push_back({info.name, share(item.time_share), share(item.variance_share), percent_text(item.loss),
+                          fmt::format("{:.0f} of 255", item.visible), info.what});
   }
   return table;
 }
@@ -24,7 +24,8 @@ Table bill_table(const Bill& bill) {
 void add_bill(Page& page, const Bill& bill) {
   page.table(bill_table(bill));
   page.note(fmt::format(
-      "time: share of a sample's CPU time that taking the effect out alone saves; variance: share of E^2 that it takes "
+      "time: share of a sample's CPU time that taking the effect out alone saves; variance: share of E^2 that it "
+      "takes "
       "away, or how many times as large E^2 is without an effect that calms the picture, as shadows do by what they "
       "hide. Effects share work and noise: the columns do not add up to the whole. Measured on {} x {} pixels spread "
       "over the picture. A part of the cloth model counts by the direct light that comes by way "

@@ -110,6 +110,22 @@ TEST(Outputs, AHangupEndsLikeATerminationUnlessItIsIgnored) {
   EXPECT_EQ(stopped_by(folder / "b.exr"), "samples");
 }
 
+TEST(Outputs, ASignalThatComesAgainCostsNothing) {
+  const Folder folder;
+  Start start;
+  start.folder = folder.path;
+  start.signal = SIGTERM;
+  start.signal_after = "\"percent\"";
+  start.signal_times = 20;
+  const Finished run =
+      run_sateen({"render", "-m",        "swatch",       "--level",   "0", "-r",         "600",  "340", "-s",
+                  "100000", "--effects", "none",         "--bounces", "0", "--progress", "json", "-o",  "a.exr",
+                  "-o",     "a.png",     "--checkpoint", "c"},
+                 start);
+  EXPECT_EQ(run.code, 143) << run.err;
+  for (const char* name : {"a.exr", "a.png", "c"}) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
 TEST(Outputs, APartialPictureDoesNotTakeThePlaceOfAFinishedOne) {
   const Folder folder;
   const auto render = [&](const char* samples, int signal) {

@@ -424,6 +424,8 @@ TEST(Merge, JoinsRangesOfSamplesToTheBitsOfOneRender) {
   ASSERT_EQ(merged.code, 0) << merged.err;
   EXPECT_EQ(sateen::read_image(folder / "sum.exr").pixels, sateen::read_image(folder / "whole.exr").pixels);
   EXPECT_EQ(whole_of(sateen::read_attributes(folder / "sum.exr"), "spp"), 39);
+  EXPECT_EQ(sateen::read_attributes(folder / "sum.exr"), sateen::read_attributes(folder / "whole.exr"));
+  EXPECT_TRUE(read_text(folder / "sum.exr") == read_text(folder / "whole.exr"));
   const Finished overlap = run_sateen({"merge", "a", "over", "-o", "sum.exr"}, here);
   EXPECT_EQ(overlap.code, 2);
   EXPECT_NE(overlap.err.find("samples 16 to 19"), std::string::npos) << overlap.err;

@@ -97,7 +97,10 @@ Finished run_sateen(const std::vector<std::string>& words, const Start& start) {
     const bool now = start.signal_seconds > 0 ? elapsed() >= start.signal_seconds
                                               : finished.err.find(start.signal_after) != std::string::npos;
     if (!signalled && now) {
-      kill(child, start.signal);
+      for (int i = 0; i < start.signal_times; ++i) {
+        if (i > 0) usleep(5000);
+        kill(child, start.signal);
+      }
       signalled = true;
       sent = std::chrono::steady_clock::now();
     }

@@ -38,6 +38,7 @@ struct Start {
   std::vector<std::string> environment;  ///< "NAME=value", over the test's own
   std::string program;                   ///< empty: the one that was built
   int signal = 0;                        ///< sent ...
+  int signal_times = 1;                  ///< ... every 5 ms
   std::string signal_after;              ///< ... once this has appeared on standard error
   double signal_seconds = 0;             ///< ... or, above 0, so many seconds after the start
   bool close_output = false;             ///< the reader of standard output goes away at once
