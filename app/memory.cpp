@@ -47,20 +47,27 @@ std::string remedy(const PictureFlags& f, const PictureSize& size, std::int64_t 
     less.exr_channels = 4;
     ways.push_back(fmt::format("--aov none takes {} less", memory_text(bytes - picture_bytes(less))));
   }
-  const double share = std::sqrt(std::max(double(room), 0.0) / double(bytes) * 0.95);
-  if (share > 0.02)
-    ways.push_back(fmt::format("--res {} {} fits", int(f.scene.width * share), int(f.scene.height * share)));
+  // Some of it does not shrink with the picture, and the next run finds a little more or less room.
+  PictureSize fits = size;
+  double low = 0, high = 1;
+  for (int step = 0; step < 20; ++step) {
+    const double share = (low + high) / 2;
+    fits.width = std::int64_t(f.scene.width * share), fits.height = std::int64_t(f.scene.height * share);
+    (double(picture_bytes(fits)) < 0.93 * double(room) ? low : high) = share;
+  }
+  if (low > 0.02)
+    ways.push_back(fmt::format("--res {} {} fits", int(f.scene.width * low), int(f.scene.height * low)));
   return ways.empty() ? "a lower --level, a smaller map (--map-size) or more memory"
                       : fmt::format("{}", fmt::join(ways, "; "));
 }
 
 [[noreturn]] void refuse(const PictureFlags& f, const PictureSize& size, std::int64_t bytes, std::int64_t held,
-                         const MemoryRoom& room) {
+                         const MemoryRoom& room, std::int64_t still_to_come = 0) {
   throw InputError(fmt::format("--res {} {} takes {} to render and to write{}, and {}, of which {} are left",
                                f.scene.width, f.scene.height, memory_text(bytes),
                                held > 0 ? fmt::format(" beside a scene of {}", memory_text(held)) : "", room.limit,
                                memory_text(std::max<std::int64_t>(room.bytes, 0))),
-                   remedy(f, size, bytes, room.bytes));
+                   remedy(f, size, bytes, room.bytes - still_to_come));
 }
 
 }  // namespace
@@ -68,7 +75,9 @@ std::string remedy(const PictureFlags& f, const PictureSize& size, std::int64_t 
 void check_film_memory(const PictureFlags& f) {
   const PictureSize size = size_of(f, writes_exr(f) && !f.layer_list.empty());
   const MemoryRoom room = memory_room();
-  if (film_bytes(size) > room.bytes) refuse(f, size, picture_bytes(size), 0, room);
+  if (film_bytes(size) <= room.bytes) return;
+  constexpr std::int64_t usual_scene = 400 << 20;  // with the address space of libraries and threads
+  refuse(f, size, picture_bytes(size), 0, room, usual_scene);
 }
 
 void check_picture_memory(const PictureFlags& f, const DisplaySettings& display, const ColorManager& colors,
