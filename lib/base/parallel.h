@@ -12,6 +12,9 @@ int thread_count(int requested);
 /// denormals to zero, the same everywhere, so that bits do not depend on who computes.
 void parallel_for(int count, int threads, const std::function<void(int)>& body);
 
+/// Calls it once; libraries under it that use TBB get at most that many threads.
+void in_threads(int threads, const std::function<void()>& body);
+
 /// Sets flush-to-zero and denormals-are-zero on the calling thread.
 void flush_denormals();
 

@@ -96,8 +96,8 @@ void fill(EmbreeRay& out, const Ray& ray) {
 RayTracer::RayTracer(const Mesh& mesh, int threads) : state_(std::make_unique<State>()) {
   check_mesh(mesh);
   State& s = *state_;
-  const std::string config = fmt::format("threads={},set_affinity=0", thread_count(threads));
-  s.device = rtcNewDevice(config.c_str());
+  // More than there are: a smaller number would bound the whole process for as long as the device lives.
+  s.device = rtcNewDevice("threads=1024,set_affinity=0");
   if (!s.device)
     throw OperationError(fmt::format("Embree does not start: {}", error_name(rtcGetDeviceError(nullptr))));
   rtcSetDeviceErrorFunction(
@@ -145,7 +145,7 @@ RayTracer::RayTracer(const Mesh& mesh, int threads) : state_(std::make_unique<St
   rtcAttachGeometry(s.scene, geometry);
   rtcReleaseGeometry(geometry);
   s.check("taking over the mesh");
-  rtcCommitScene(s.scene);
+  in_threads(threads, [&] { rtcJoinCommitScene(s.scene); });
   s.check("building its tree");
 }
 

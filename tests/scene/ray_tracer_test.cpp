@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "math/frame.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
@@ -419,6 +423,20 @@ TEST(Offset, LargeFacesAreNotMetNearTheOriginEither) {
     self_hits += again.has_value();
   }
   EXPECT_EQ(self_hits, 0);
+}
+
+TEST(RayTracer, OfOneThreadDoesNotHoldEverybodyElseToOne) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+  const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
+  const RayTracer tracer(mesh, 1);
+  std::atomic<int> under_way = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto late = [&] { return std::chrono::steady_clock::now() - start > std::chrono::seconds(20); };
+  parallel_for(2, 2, [&](int) {
+    ++under_way;
+    while (under_way < 2 && !late()) std::this_thread::yield();
+  });
+  EXPECT_FALSE(late()) << "the second call waited for the first";
 }
 
 }  // namespace
