@@ -9,8 +9,7 @@ namespace sateen {
 
 namespace {
 
-// Over looks, maps and meshes (docs/error.md) E falls about as n^-0.575, give or take 0.045.
-constexpr double usual_slope = -0.575, usual_deviation = 0.045;
+constexpr double usual_deviation = 0.045;  // of usual_slope, over looks, maps and meshes (docs/error.md)
 // Of log E at one barrier, beside what all barriers share: they add to the same samples.
 constexpr double point_deviation = 0.03;
 // Cost of a sample may change by this share, from caches, clocks and where samples go.

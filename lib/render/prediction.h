@@ -3,6 +3,9 @@
 
 namespace sateen {
 
+/// E falls about as samples to this power, over looks, maps and meshes (docs/error.md).
+inline constexpr double usual_slope = -0.575;
+
 /// What a running render knows of itself at a barrier.
 struct ErrorPoint {
   double samples = 0;    ///< mean a pixel

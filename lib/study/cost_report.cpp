@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "render/prediction.h"
 #include "render/progress.h"
 #include "study/bill_report.h"
 
@@ -112,10 +113,14 @@ Table quality_table(const CostResult& result) {
     }
     const std::string dear = "not rendered: too dear";
     const Interval& e = q.measured_error;
-    table.rows.push_back(
-        {q.name, percent_text(q.target), q.flags, percent_text(q.error()),
-         q.measured ? fmt::format("{} ({:.3g} to {:.3g})", percent_text(e.value), 100 * e.low, 100 * e.high) : dear,
-         number_text(q.cpu_seconds, 3), q.measured ? interval_text(q.measured_seconds, 3) : dear});
+    std::string measured = fmt::format("{} ({:.3g} to {:.3g})", percent_text(e.value), 100 * e.low, 100 * e.high);
+    // A forecast that was a little too bright.
+    if (e.low > q.target)
+      measured += fmt::format(": above, {:.0f} % more samples are wanted",
+                              100 * (std::pow(e.value / q.target, -1 / usual_slope) - 1));
+    table.rows.push_back({q.name, percent_text(q.target), q.flags, percent_text(q.error()),
+                          q.measured ? measured : dear, number_text(q.cpu_seconds, 3),
+                          q.measured ? interval_text(q.measured_seconds, 3) : dear});
   }
   return table;
 }
