@@ -17,6 +17,7 @@
 #include "look/read.h"
 #include "measured_look.h"
 #include "mesh/check_cage.h"
+#include "mesh/extent.h"
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
@@ -130,6 +131,7 @@ void check_mesh(Finding& f, bool weld) {
                       (cage.holes.size() == 1 ? " cut out as a hole" : " cut out as holes"));
   settle_placement(cage);
   const Mesh mesh = subdivide(cage, 1);
+  for (const std::string& told : check_extent(cage, mesh)) f.notices.push_back(told);
   const Vec3d size = Vec3d(mesh.bounds_max - mesh.bounds_min) * mesh.placement.unit;
   f.facts.push_back(fmt::format("limit surface {:.4g} x {:.4g} x {:.4g} scene units", size.x, size.y, size.z));
   for (const std::string& warning : mesh.warnings) f.notices.push_back(warning);

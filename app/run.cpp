@@ -16,6 +16,7 @@
 #include "image/color_messages.h"
 #include "look/json.h"
 #include "signals.h"
+#include "stack.h"
 
 namespace sateen::app {
 
@@ -81,6 +82,7 @@ int dispatch(const std::vector<std::string>& words) {
   if (words[0][0] == '-')
     throw InputError(fmt::format("a command is missing before {}", shown_name(words[0])),
                      fmt::format("sateen render {}", words[0]));
+  provide_stack();
   return run_named(subcommands(), "sateen", words);
 }
 }  // namespace

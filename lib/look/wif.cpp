@@ -13,6 +13,7 @@
 #include "look/json.h"
 #include "look/wif_drawdown.h"
 #include "look/wif_text.h"
+#include "look/wif_unused.h"
 
 namespace sateen {
 
@@ -69,7 +70,7 @@ class WifReader {
     const Range ends = range("warp", threading_, "ends", "are on a shaft", "are on no shaft");
     const Range picks = range("weft", lifts_, "picks", "lift a shaft", "lift nothing");
     text_.finish();
-    tell_colors();
+    if (const std::string unused = unused_thread_values(text_); !unused.empty()) warn(unused);
     std::vector<WifNumbers> columns, rows;
     for (int end = ends.first; end <= ends.last; ++end) columns.push_back(numbers_of(threading_, end));
     for (int pick = picks.first; pick <= picks.last; ++pick) rows.push_back(numbers_of(lifts_, pick));
@@ -288,15 +289,6 @@ class WifReader {
   static WifNumbers numbers_of(const NumberLists& lists, int thread) {
     const auto row = lists.rows.find(thread);
     return row == lists.rows.end() ? WifNumbers() : row->second;
-  }
-
-  void tell_colors() {
-    std::string names;
-    for (const std::string name : {"color table", "warp colors", "weft colors"})
-      if (const WifSection* section = text_.used(name); section && !section->entries.empty())
-        names += (names.empty() ? "" : ", ") + upper(name);
-    if (!names.empty())
-      warn(fmt::format("the colours of its threads ({}) are not used yet, those of the look are", names));
   }
 
   bool yes_no(const std::string& section, const std::string& key, bool otherwise) {

@@ -20,9 +20,9 @@ struct WifDraft {
 /// Which of the two: the one that [CONTENTS] names and that lifts something, LIFTPLAN where both do. Sections that
 /// [CONTENTS] denies are not used. Warp thread 1 is the rightmost end, weft thread 1 the lowest pick. Ends on no
 /// shaft and picks that lift nothing are left out before the first and behind the last that are drawn. Told as
-/// warnings: those, treadles that are not tied, counts that do not fit, thread colours, which are not used yet.
-/// InputError with file:line:column of every line that is not understood, at most 20; unreadable where the file
-/// cannot be read or is larger than 64 MiB.
+/// warnings: those, treadles that are not tied, counts that do not fit, thread colours, sizes and symbols, which are
+/// not used yet. InputError with file:line:column of every line that is not understood, at most 20; unreadable where
+/// the file cannot be read or is larger than 64 MiB.
 WifDraft read_wif(const std::filesystem::path& path);
 WifDraft parse_wif(const std::string& text, const std::string& file);
 

@@ -11,7 +11,8 @@ namespace sateen {
 
 namespace {
 
-using Shafts = std::bitset<most_wif_shafts + 1>;
+// One more than there may be, for a file that counts them from 0.
+using Shafts = std::bitset<most_wif_shafts + 2>;
 
 /// Numbers equal values from 0 in the order in which they first come; `firsts` names one thread of each kind.
 template <class Value>

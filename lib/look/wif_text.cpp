@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text_encoding.h"
 #include "look/json.h"
 
 namespace sateen {
@@ -18,8 +19,14 @@ const std::set<std::string> weave_sections{"contents",    "weaving",     "warp",
                                            "threading",   "tieup",       "treadling",  "liftplan",
                                            "color table", "warp colors", "weft colors"};
 
+// Of the threads, that are told as not used; their lines may be any text.
+const std::set<std::string> told_sections{"warp spacing",   "weft spacing",      "warp thickness",
+                                          "weft thickness", "warp symbol table", "weft symbol table",
+                                          "symbol table",   "warp symbols",      "weft symbols"};
+
 bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\f' || c == '\v';
+  constexpr char dos_end = 0x1a;  // by which DOS ended a file
+  return c == ' ' || c == '\t' || c == '\f' || c == '\v' || c == dos_end;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -41,19 +48,17 @@ std::string_view without_comment(std::string_view line) {
 }
 
 // Text in another encoding would be read as one long line of nonsense.
-void check_encoding(const std::string& text, const std::string& file) {
+void check_encoding(std::string_view text, const std::string& file) {
   const auto refuse = [&](const std::string& what) {
     Diagnostic d;
     d.file = file;
-    d.message = what + ", expected UTF-8 or plain ASCII text";
-    d.help = "save it as UTF-8";
+    d.message = what;
+    d.help = wide_text_help;
     throw InputError(InputError::Kind::wrong, {d});
   };
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) refuse("is UTF-16 text");
-  const size_t zero = text.find('\0');
-  if (zero == std::string::npos) return;
-  refuse(zero < 4 && text.size() > 3 ? "is UTF-16 text, or no text at all"
-                                     : fmt::format("holds a zero byte at {}", zero));
+  if (const std::string wide = wide_text_complaint(text); !wide.empty()) refuse(wide);
+  if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
+    refuse(fmt::format("holds a zero byte at {}, expected UTF-8 or plain ASCII text", zero));
 }
 
 }  // namespace
@@ -65,8 +70,8 @@ int wif_yes_no(std::string_view word) {
 }
 
 WifText::WifText(const std::string& text, const std::string& file) : file_(file) {
-  check_encoding(text, file);
-  std::string_view left = text;
+  std::string_view left = without_dos_end(text);
+  check_encoding(left, file);
   if (left.starts_with("\xef\xbb\xbf")) left.remove_prefix(3);
   split(left);
   if (sections_.empty() && first_stray_.number > 0)
@@ -94,6 +99,7 @@ void WifText::split(std::string_view left) {
       continue;
     }
     if (!current_ && first_stray_.number == 0) first_stray_ = entry, first_stray_.key = body;
+    if (current_) ++current_->lines;
     if (!keeps_entries_) continue;
     const size_t equals = body.find_first_of("=:");
     if (equals == std::string_view::npos) {
@@ -132,9 +138,11 @@ void WifText::obey_contents() {
   for (const WifEntry& e : contents->second.entries) {
     const std::string name = lower(e.key);
     const auto section = sections_.find(name);
-    if (section == sections_.end() || !weave_sections.contains(name) || e.value.empty()) continue;
+    if (section == sections_.end() || e.value.empty()) continue;
+    const bool told = told_sections.contains(name);
+    if (!told && !weave_sections.contains(name)) continue;
     const int said = wif_yes_no(e.value);
-    if (said < 0)
+    if (said < 0 && !told)
       fault(e, e.value, fmt::format("{} is {}, expected {}", e.key, shown_name(e.value), wif_yes_no_words));
     section->second.denied = said == 0;
     section->second.named = said == 1;

@@ -16,6 +16,7 @@ struct WifEntry {
 
 struct WifSection {
   int number = 0;  ///< line of its first heading, from 1
+  int lines = 0;   ///< that are neither blank nor a comment
   std::vector<WifEntry> entries;
   bool denied = false;  ///< [CONTENTS] says that it is not used
   bool named = false;   ///< [CONTENTS] says that it is
@@ -28,7 +29,7 @@ inline constexpr const char* wif_yes_no_words = "true, on, yes, 1, false, off, n
 /// The text of a WIF file in sections, names in lower case, for the sections that tell a weave: their lines without
 /// comments (from ; to the end, from # at the start of a line or behind a blank). Other sections are there without
 /// entries, whatever text they hold, and what stands before the first is skipped. Line ends are those of any system;
-/// a UTF-8 byte order mark is skipped.
+/// a UTF-8 byte order mark is skipped, and so is the 0x1A of DOS at the end of the text or at either end of a line.
 class WifText {
  public:
   /// `text` and `file` must outlive this. Throws InputError for what is no text; faults of lines are kept.

@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "base/text_encoding.h"
 #include "mesh/check_cage.h"
 #include "mesh/cut_polygon.h"
 #include "mesh/obj_groups.h"
+#include "mesh/obj_passed_over.h"
 #include "mesh/obj_tags.h"
 #include "mesh/obj_text.h"
 #include "mesh/wanted_placement.h"
@@ -16,18 +18,11 @@ namespace sateen {
 
 namespace {
 
+using obj::Count;
 using obj::Number;
 using obj::Text;
 
 constexpr float too_large = 1e15f;
-
-/// Things that were mended, by kind, with the first line of each.
-struct Count {
-  int count = 0, first_line = 0;
-  void add(int line) {
-    if (count++ == 0) first_line = line;
-  }
-};
 
 class Reader {
  public:
@@ -46,7 +41,8 @@ class Reader {
   void move_to_origin();
   void check_forward_indices();
   void drop_bad_uvs();
-  void warn(const Count& count, const char* thing, const char* one, const char* many);
+  void refuse_no_face();
+  void warn();
 
   std::string_view whole_;
   Text text_;
@@ -68,7 +64,8 @@ class Reader {
   };
   std::vector<Forward> forward_;  // positive indices beyond what had been read when they were met
   obj::Groups groups_;
-  Count repeated_, cut_, dropped_, unknown_, bad_uv_, mixed_uv_;
+  obj::PassedOver passed_over_;
+  Count repeated_, cut_, dropped_, bad_uv_, mixed_uv_;
 };
 
 bool Reader::read_number(std::string_view what, float& value, bool refuse_non_finite) {
@@ -123,8 +120,10 @@ bool Reader::read_index(std::string_view word, std::string_view what, size_t cou
                 "OBJ counts from 1; -1 is the one read last");
     return false;
   }
-  if (value < 0 && -value > (long long)count) {
-    text_.error(word, fmt::format("{} index is {}, expected -1 to -{}", what, value, count));
+  // The least integer has no opposite.
+  if (value < -(long long)count) {
+    text_.error(word, count == 0 ? fmt::format("{0} index is {1}, but no {0} stands before it", what, value)
+                                 : fmt::format("{} index is {}, expected -1 to -{}", what, value, count));
     return false;
   }
   if (value > INT32_MAX) {
@@ -291,18 +290,44 @@ void Reader::drop_bad_uvs() {
   }
 }
 
-void Reader::warn(const Count& count, const char* thing, const char* one, const char* many) {
-  if (count.count)
-    mesh_.warnings.push_back(fmt::format("{}:{}: {} {}", mesh_.name, count.first_line, counted(count.count, thing),
-                                         count.count == 1 ? one : many));
+void Reader::refuse_no_face() {
+  if (dropped_.count == 0) passed_over_.complain_of_no_face(text_, mesh_.name, mesh_.positions.size());
+  throw InputError(
+      fmt::format("{}:{}: no face is left: {}", mesh_.name, dropped_.first_line,
+                  dropped_.count == 1
+                      ? "its only one meets a vertex twice and crosses itself, has no area or is too "
+                        "large to cut"
+                      : fmt::format("all {} meet a vertex twice and cross themselves, have no area or are "
+                                    "too large to cut",
+                                    dropped_.count)),
+      "name each vertex of a face once, in the order around it");
+}
+
+void Reader::warn() {
+  std::vector<std::string>& warnings = mesh_.warnings;
+  const auto tell = [&](const Count& count, const char* thing, const char* one, const char* many) {
+    count.warn(mesh_.name, thing, one, many, warnings);
+  };
+  tell(repeated_, "face", "repeats a corner: the repetition was dropped",
+       "repeat a corner: the repetition was dropped");
+  tell(cut_, "face", "meets a vertex twice, as around a hole: it was cut into simple ones",
+       "meet a vertex twice, as around a hole: they were cut into simple ones");
+  tell(dropped_, "face",
+       "meets a vertex twice and crosses itself, has no area or is too large to cut: it was dropped",
+       "meet a vertex twice and cross themselves, have no area or are too large to cut: they were dropped");
+  tell(mixed_uv_, "face", "has UVs at some corners only: its UVs were dropped",
+       "have UVs at some corners only: their UVs were dropped");
+  tell(bad_uv_, "texture coordinate", "is not finite or reaches 1e15: the faces that use it lost their UVs",
+       "are not finite or reach 1e15: the faces that use them lost their UVs");
+  passed_over_.warn(mesh_.name, warnings);
+  if (const std::string told = groups_.told(); !told.empty()) warnings.push_back(mesh_.name + ": " + told);
 }
 
 ControlMesh Reader::read() {
-  bool seen_face = false;
   while (!text_.gave_up() && text_.next_line()) {
     if (text_.line_too_long()) {
       const std::string_view word = text_.next_word();
-      text_.error(word.substr(0, 1), "line is longer than 1 MiB");
+      if (!word.empty()) text_.error(word.substr(0, 1), "line is longer than 1 MiB");  // no word: a comment
       continue;
     }
     const std::string_view key = text_.next_word();
@@ -312,17 +337,22 @@ ControlMesh Reader::read() {
     } else if (key == "vt") {
       read_uv();
     } else if (key == "f" || key == "fo") {
-      seen_face = true;
       read_face();
       groups_.add_face();
     } else if (key == "t") {
       tags_.read(text_);
     } else if (key == "usemtl" || key == "g" || key == "o") {
       groups_.begin(key, text_);
-    } else if (static_cast<unsigned char>(key[0]) < 0x20 || static_cast<unsigned char>(key[0]) >= 0x7f) {
-      unknown_.add(text_.line());
+    } else {
+      passed_over_.read(key, text_);
     }
   }
+  // Indices are ints from here on.
+  if (std::max({mesh_.positions.size(), mesh_.uvs.size(), mesh_.position_indices.size()}) > size_t(INT32_MAX))
+    throw InputError(
+        fmt::format("{}: holds {} vertices, {} texture coordinates and {} corners of faces, expected at "
+                    "most {} of each",
+                    mesh_.name, mesh_.positions.size(), mesh_.uvs.size(), mesh_.position_indices.size(), INT32_MAX));
   if (!text_.gave_up()) {
     check_forward_indices();
     if (text_.errors().empty()) {
@@ -334,40 +364,28 @@ ControlMesh Reader::read() {
     }
   }
   if (!text_.errors().empty()) throw InputError(InputError::Kind::wrong, std::move(text_.errors()));
-  if (mesh_.face_sizes.empty())
-    throw InputError(fmt::format("{}: {}", mesh_.name,
-                                 seen_face ? "no face is left after dropping those that meet a vertex twice"
-                                           : "holds no face, expected at least one"),
-                     seen_face ? std::string() : "meshes are OBJ text with lines such as f 1 2 3: export it as one");
+  if (mesh_.face_sizes.empty()) refuse_no_face();
   drop_bad_uvs();
   if (!any_uv_) mesh_.uvs.clear();
-  warn(repeated_, "face", "repeats a corner: the repetition was dropped",
-       "repeat a corner: the repetition was dropped");
-  warn(cut_, "face", "meets a vertex twice, as around a hole: it was cut into simple ones",
-       "meet a vertex twice, as around a hole: they were cut into simple ones");
-  warn(dropped_, "face",
-       "meets a vertex twice and crosses itself, has no area or is too large to cut: it was dropped",
-       "meet a vertex twice and cross themselves, have no area or are too large to cut: they were dropped");
-  warn(mixed_uv_, "face", "has UVs at some corners only: its UVs were dropped",
-       "have UVs at some corners only: their UVs were dropped");
-  warn(bad_uv_, "texture coordinate", "is not finite or reaches 1e15: the faces that use it lost their UVs",
-       "are not finite or reach 1e15: the faces that use them lost their UVs");
-  warn(unknown_, "line", "is not text of an OBJ file: passed over", "are not text of an OBJ file: passed over");
-  if (const std::string told = groups_.told(); !told.empty()) mesh_.warnings.push_back(mesh_.name + ": " + told);
+  warn();
   return std::move(mesh_);
 }
 
 }  // namespace
 
 ControlMesh parse_obj(std::string_view text, const std::string& name) {
-  return Reader(text, name).read();
+  if (const std::string complaint = wide_text_complaint(text); !complaint.empty())
+    throw InputError(name + ": " + complaint, wide_text_help);
+  if (!obj::has_lone_returns(text)) return Reader(text, name).read();
+  std::string lines(text);
+  obj::end_lines_at_returns(lines);
+  return Reader(lines, name).read();
 }
 
 ControlMesh read_obj(const std::filesystem::path& path) {
   constexpr std::uint64_t limit = std::uint64_t(16) << 30;
   std::string text = read_text_file(path, limit);
-  // Lines as the first Macintoshes ended them.
-  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+  obj::end_lines_at_returns(text);  // here, lest parse_obj holds the text twice
   return parse_obj(text, path.string());
 }
 

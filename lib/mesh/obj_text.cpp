@@ -1,7 +1,10 @@
 #include "mesh/obj_text.h"
 
 #include <algorithm>
+#include <climits>
 #include <cstring>
+
+#include "base/text_encoding.h"
 
 namespace sateen::obj {
 
@@ -10,10 +13,29 @@ namespace {
 bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
 }
+// By which DOS ended a file; in one that was joined from several it stands before or behind a word.
+constexpr char dos_end = 0x1a;
+
+// The next carriage return that no line feed ends; several before one line feed are one end.
+size_t lone_return(std::string_view text, size_t from) {
+  for (size_t at = text.find('\r', from); at != std::string_view::npos; at = text.find('\r', at)) {
+    const size_t next = text.find_first_not_of('\r', at);
+    if (next == std::string_view::npos || text[next] != '\n') return at;
+    at = next;
+  }
+  return std::string_view::npos;
+}
+
+bool has_comment(const char* begin, const char* end) {
+  for (const char* p = begin; (p = static_cast<const char*>(std::memchr(p, '#', size_t(end - p)))); ++p)
+    if (p == begin || is_space(p[-1])) return true;
+  return false;
+}
 }  // namespace
 
 Text::Text(std::string_view text, std::string name) : name_(std::move(name)) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_dos_end(text);
   begin_ = text.data();
   end_ = begin_ + text.size();
   line_begin_ = line_end_ = at_ = begin_;
@@ -29,12 +51,12 @@ bool Text::next_line() {
   for (;;) {
     const char* found = static_cast<const char*>(std::memchr(from, '\n', size_t(end_ - from)));
     line_end_ = found ? found : end_;
-    ++next_line_;
+    if (next_line_ < INT_MAX) ++next_line_;  // 16 GB may hold more
     const char* last = line_end_;
     if (last > from && last[-1] == '\r') --last;
     if (!found || last == from || last[-1] != '\\') return true;
     // A comment ends with its line, whatever it ends with: a folder's name must not swallow a vertex.
-    if (std::memchr(from, '#', size_t(last - from))) return true;
+    if (has_comment(from, last)) return true;
     from = found + 1;
   }
 }
@@ -46,7 +68,7 @@ std::string_view Text::next_word() {
       at_ = line_end_;
       return {line_end_, 0};
     }
-    if (is_space(*p)) continue;
+    if (is_space(*p) || *p == dos_end) continue;
     if (*p == '\\' && (p + 1 == line_end_ || p[1] == '\n' || p[1] == '\r')) continue;
     break;
   }
@@ -55,15 +77,15 @@ std::string_view Text::next_word() {
     return {line_end_, 0};
   }
   const char* start = p;
-  while (p < line_end_ && !is_space(*p) && *p != '#' &&
-         !(*p == '\\' && (p + 1 == line_end_ || p[1] == '\n' || p[1] == '\r')))
-    ++p;
+  // A # inside a word is a part of it: as in 1.#IND, or in the name of a material.
+  while (p < line_end_ && !is_space(*p) && !(*p == '\\' && (p + 1 == line_end_ || p[1] == '\n' || p[1] == '\r'))) ++p;
   at_ = p;
+  while (p > start && p[-1] == dos_end) --p;
   return {start, size_t(p - start)};
 }
 
 int Text::line_of(const char* place) const {
-  return line_ + int(std::count(line_begin_, place, '\n'));
+  return int(std::min<long long>(line_ + std::count(line_begin_, place, '\n'), INT_MAX));
 }
 
 void Text::error(std::string_view word, std::string message, std::string help) {
@@ -71,7 +93,8 @@ void Text::error(std::string_view word, std::string message, std::string help) {
 }
 
 void Text::error_anywhere(std::string_view word, std::string message, std::string help) {
-  add(word, 1 + int(std::count(begin_, word.data(), '\n')), std::move(message), std::move(help));
+  const long long lines = 1 + std::count(begin_, word.data(), '\n');
+  add(word, int(std::min<long long>(lines, INT_MAX)), std::move(message), std::move(help));
 }
 
 void Text::add(std::string_view word, int line, std::string message, std::string help) {
@@ -84,8 +107,8 @@ void Text::add(std::string_view word, int line, std::string message, std::string
   Diagnostic d;
   d.file = name_;
   d.line = line;
-  d.column = int(word.data() - start) + 1;
-  d.width = int(std::max<size_t>(word.size(), 1));
+  d.column = int(std::min<long long>(word.data() - start, INT_MAX - 1)) + 1;
+  d.width = int(std::clamp<size_t>(word.size(), 1, Text::longest_line));
   d.message = std::move(message);
   d.help = std::move(help);
   constexpr long most_shown = 4096;  // a hundred errors in lines of 1 MiB must not fill the memory
@@ -93,11 +116,33 @@ void Text::add(std::string_view word, int line, std::string message, std::string
   errors_.push_back(std::move(d));
 }
 
+bool has_lone_returns(std::string_view text) {
+  return lone_return(text, 0) != std::string_view::npos;
+}
+
+void end_lines_at_returns(std::string& text) {
+  for (size_t at = 0; (at = lone_return(text, at)) != std::string::npos;) text[at] = '\n';
+}
+
+namespace {
+/// As Microsoft's libraries print what is no finite number: -1.#IND, 1.#QNAN0, 1.#INF00.
+Number as_microsoft_prints(std::string_view word) {
+  const size_t point = word.find(".#");
+  if (point == std::string_view::npos || word.substr(0, point).find_first_not_of("+-0123456789") < point)
+    return Number::malformed;
+  return word.substr(point + 2).starts_with("INF") ? Number::not_finite : Number::not_a_number;
+}
+}  // namespace
+
 Number to_float(std::string_view word, float& value) {
   const char *first = word.data(), *last = first + word.size();
   if (first < last && *first == '+') ++first;
   const std::from_chars_result r = std::from_chars(first, last, value);
-  if (r.ec == std::errc::invalid_argument || r.ptr != last) return Number::malformed;
+  if (r.ec == std::errc::invalid_argument || r.ptr != last) {
+    const Number kind = as_microsoft_prints(word);
+    if (kind != Number::malformed) value = NAN;
+    return kind;
+  }
   if (r.ec == std::errc::result_out_of_range) {
     double wide = 0;
     if (std::from_chars(first, last, wide).ec == std::errc()) {

@@ -9,8 +9,14 @@
 
 namespace sateen::obj {
 
+/// Whether a line ends in a carriage return alone, as on the first Macintoshes.
+bool has_lone_returns(std::string_view text);
+/// Makes line feeds of such ends.
+void end_lines_at_returns(std::string& text);
+
 /// Walks a text by logical lines (a backslash at a line's end joins the next) and by words inside them, and turns a
-/// place in the text into line and column. Every pointer stays inside the text that was given.
+/// place in the text into line and column. Comments run from a # at the start of a word; the 0x1A of DOS is passed
+/// over at the end of the text and at either end of a word. Every pointer stays inside the text that was given.
 class Text {
  public:
   Text(std::string_view text, std::string name);
@@ -45,7 +51,8 @@ class Text {
 
 enum class Number { good, not_a_number, not_finite, malformed };
 
-/// A decimal number, the whole of `word`. Values too small for a float become 0; too large ones are not_finite.
+/// A decimal number, nan or inf, also as Microsoft's libraries print them, the whole of `word`. Values too small for
+/// a float become 0; too large ones are not_finite.
 Number to_float(std::string_view word, float& value);
 /// The same for what to_float took for good.
 void to_double(std::string_view word, double& value);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "mesh/patch_effort.h"
 #include "mesh/vertex_values.h"
 
 namespace sateen {
@@ -82,7 +83,7 @@ bool needs_uniform_refinement(const Far::TopologyLevel& cage) {
   }
   for (int i = 0; i < cage.GetNumFaces(); ++i)
     if (cage.GetFaceVertices(i).size() > most_neighbours) return true;
-  return false;
+  return patches_cost_too_much(cage);
 }
 
 Mesh uniformly_refined(Far::TopologyRefiner& refiner, const ControlPoints& points, int level) {
@@ -116,6 +117,9 @@ Mesh uniformly_refined(Far::TopologyRefiner& refiner, const ControlPoints& point
   }
   if (mesh.quads.empty()) throw Refusal{"no face has a limit surface"};
 
+  // Once a vertex: one of many faces may have as many UVs.
+  std::vector<char> sharp(limit.positions.size());
+  for (size_t i = 0; i < sharp.size(); ++i) sharp[i] = is_sharp(last, int(i));
   VertexValues values(mesh, std::uint32_t(vertices.size()));
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const auto [vertex, uv] = vertices[i];
@@ -124,7 +128,7 @@ Mesh uniformly_refined(Far::TopologyRefiner& refiner, const ControlPoints& point
     if (!points.uvs.empty()) sample.uv = limit.uvs[size_t(uv)].value;
     // Where several smooth pieces meet, one tangent plane would be as wrong as another: the mean of the pieces is
     // taken.
-    if (!is_sharp(last, vertex))
+    if (!sharp[size_t(vertex)])
       sample.normal = safe_unit(
           cross(safe_unit(limit.tangents[size_t(vertex)].value), safe_unit(limit.others[size_t(vertex)].value)));
     values.set(i, sample);

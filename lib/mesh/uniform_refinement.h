@@ -7,8 +7,8 @@
 namespace sateen {
 
 /// True where Bfr must not be used: OpenSubdiv 3.5.0 writes out of bounds around an interior vertex of two faces (its
-/// pull requests 1301, 1336 and 1353 mend that later), and its patches grow with the square of the valence, so
-/// that a vertex or face of 1,000 takes seconds.
+/// pull requests 1301, 1336 and 1353 mend that later), its patches grow with the square of the valence, so that a
+/// vertex or face of 1,000 takes seconds, and where none are alike with the cube (mesh/patch_effort.h).
 bool needs_uniform_refinement(const OpenSubdiv::Far::TopologyLevel& cage);
 
 /// The limit surface by uniform refinement in Far, for such cages: positions, normals and UVs are the limit's as in

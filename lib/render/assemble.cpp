@@ -16,6 +16,7 @@
 #include "base/parallel.h"
 #include "look/describe.h"
 #include "look/read.h"
+#include "mesh/extent.h"
 #include "mesh/obj.h"
 #include "mesh/shapes.h"
 #include "mesh/subdivide.h"
@@ -84,29 +85,6 @@ ControlMesh read_cage(const std::string& name) {
                    help, InputError::Kind::unreadable);
 }
 
-/// InputError for a mesh of which nothing can be seen; a warning for one that may have been rounded.
-void check_extent(const std::string& name, const Mesh& mesh, std::vector<std::string>& warnings) {
-  double area = 0;
-  for (const auto& quad : mesh.quads) {
-    const Vec3 &a = mesh.positions[quad[0]], &b = mesh.positions[quad[1]], &c = mesh.positions[quad[2]],
-               &d = mesh.positions[quad[3]];
-    area += Vec3d(c - a).cross(Vec3d(d - b)).length() + Vec3d(b - a).cross(Vec3d(c - a)).length();
-  }
-  if (!(area > 0))
-    throw InputError(
-        fmt::format("{}: none of its {} faces has an area: nothing of it can be seen", name, mesh.quads.size()),
-        "its corners lie in one point or on one line; export it anew");
-  const double size = double((mesh.bounds_max - mesh.bounds_min).length()) * mesh.placement.unit;
-  const double away = mesh.placement.origin.length();
-  // The file was read in double, but few programs write from more than floats of 24 bits.
-  constexpr double far_away = 1000;
-  if (away > far_away * size)
-    warnings.push_back(fmt::format(
-        "{}: it lies {:.2g} times its own size from the origin, where a program that counts in floats has no "
-        "more than {:.0f} steps across it; if its folds look stepped, export it at the origin",
-        name, away / size, size / (away * 0x1p-24)));
-}
-
 Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   const double start = now();
   ControlMesh cage = read_cage(settings.mesh);
@@ -146,7 +124,7 @@ Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
     report.warnings.push_back(
         fmt::format("{}: {} of {} vertices have no usable UVs: their warp follows the object's X axis", settings.mesh,
                     mesh->fallback_warps, mesh->positions.size()));
-  check_extent(settings.mesh, *mesh, report.warnings);
+  for (const std::string& told : check_extent(cage, *mesh)) report.warnings.push_back(settings.mesh + ": " + told);
   cloth.camera = frame_points(mesh->positions, settings.camera, settings.width, settings.height);
   cloth.mesh = std::move(mesh);
   report.mesh_seconds = now() - start;

@@ -47,9 +47,16 @@ TEST(WrongMesh, AFileWithoutFacesSaysWhatAMeshIs) {
 
 TEST(WrongMesh, FacesWithoutAreaAreRefusedAndNotRenderedAsAnEmptyPicture) {
   for (const char* text : {"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"}) {
-    const Finished run = render_mesh(Folder(), text);
+    const Folder folder;
+    const Finished run = render_mesh(folder, text);
     EXPECT_EQ(run.code, 2);
-    EXPECT_NE(run.err.find("has an area: nothing of it can be seen\n  help: "), std::string::npos) << run.err;
+    const size_t verdict = run.err.find("its only face has no area: nothing of it can be seen\n  help: ");
+    ASSERT_NE(verdict, std::string::npos) << run.err;
+    // The check before says the same.
+    const Finished check = run_sateen({"check", folder / "cloth.obj"});
+    EXPECT_EQ(check.code, 2);
+    EXPECT_NE(check.out.find("cloth.obj: not usable\n"), std::string::npos) << check.out;
+    EXPECT_NE(check.err.find(run.err.substr(verdict)), std::string::npos) << check.err;
   }
 }
 

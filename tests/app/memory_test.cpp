@@ -62,6 +62,23 @@ TEST(Memory, ADryRunTakesNoneOfThePicturesAndSaysThatItWouldNotFit) {
   EXPECT_NE(run.err.find("this machine would refuse it: --res 6000 6000 takes "), std::string::npos) << run.err;
 }
 
+TEST(Memory, AStackThatIsTooSmallIsRaisedWhereThatIsAllowedAndRefusedElsewhere) {
+  const Folder folder;
+  const auto render_below = [&](const std::string& limit) {
+    Start start(folder.path);
+    start.program = "/bin/sh";
+    std::vector<std::string> words{"-c", "ulimit " + limit + " && exec \"$@\"", "sh", SATEEN_PROGRAM};
+    const std::vector<std::string> render = tiny({"-o", "a.png"});
+    words.insert(words.end(), render.begin(), render.end());
+    return run_sateen(words, start);
+  };
+  const Finished raised = render_below("-S -s 64");
+  EXPECT_EQ(raised.code, 0) << raised.err;
+  const Finished refused = render_below("-s 64");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(refused.err, "error: ulimit -s allows 64 kB of stack, expected at least 512\n  help: ulimit -s 8192\n");
+}
+
 TEST(Memory, CheckpointsThatDoNotFitAreNotReadToBeMerged) {
   const Folder folder;
   for (const char* name : {"a", "b"}) {

@@ -248,6 +248,60 @@ TEST(Wif, ColoursOfThreadsAreToldAsNotYetUsed) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST(Wif, SizesAndSymbolsOfThreadsAreToldAsNotYetUsedInOneNote) {
+  const auto only_warning = [](const std::string& text) {
+    std::vector<std::string> warnings;
+    EXPECT_EQ(rows_of(text, &warnings), twill_rows);
+    EXPECT_EQ(warnings.size(), 1u) << text;
+    return warnings.empty() ? "" : warnings[0];
+  };
+  const std::string warp = "[WARP]\n", weft = "[WEFT]\n";
+  EXPECT_EQ(only_warning(replaced(replaced(twill_wif, warp, warp + "Units=centimeters\nSpacing=0.2\nThickness=.1\n"),
+                                  weft, weft + "Spacing=0.4\n")),
+            "a.wif: the spacing and thickness of its threads (Units of WARP, Spacing of WARP and WEFT, Thickness of "
+            "WARP) are not used yet, those of the look are");
+  EXPECT_EQ(only_warning(replaced(twill_wif, warp, warp + "Color=1\n")),
+            "a.wif: the colours of its threads (Color of WARP) are not used yet, those of the look are");
+  EXPECT_EQ(only_warning(twill_wif + std::string("[WARP SYMBOLS]\n1=#\n")),
+            "a.wif: the symbols of its threads (WARP SYMBOLS) are not used yet");
+  EXPECT_EQ(only_warning(twill_wif + std::string("[COLOR TABLE]\n1=1,1,1\n[WARP SPACING]\n1=.5\n[WEFT THICKNESS]\n"
+                                                 "as it comes\n[WEFT SYMBOLS]\n1=x\n")),
+            "a.wif: the colours of its threads (COLOR TABLE), the spacing and thickness of them (WARP SPACING, WEFT "
+            "THICKNESS), the symbols of them (WEFT SYMBOLS) are not used yet, those of the look are");
+  // Nothing is said where nothing is there, or where the contents deny it.
+  std::vector<std::string> warnings;
+  rows_of(twill_wif + std::string("[WARP SPACING]\n; none\n\n[WEFT SPACING]\n1=2\n[CONTENTS]\nWEFT SPACING=no\n"),
+          &warnings);
+  rows_of(replaced(twill_wif, warp, warp + "Spacing=\n"), &warnings);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Wif, TheEndOfTextThatDosWritesIsPassedOver) {
+  const std::string end = "\x1a", text = twill_wif;
+  for (const std::string& padded : {text + end, text + end + end + std::string(3, '\0'), text + end + "\r\n",
+                                    replaced(text, "4=4,1\n", "4=4,1" + end + "\n" + end + "\n" + end)})
+    EXPECT_EQ(rows_of(padded), twill_rows);
+  EXPECT_NE(wif_error(replaced(text, "3=3\n", "3=3" + end + "4\n")).find("a.wif:14:3: error"), std::string::npos);
+}
+
+TEST(Wif, NumbersAtTheEdgeOfWhatIsCountedAreReadOrRefused) {
+  // Counted from 0, shaft 4096 is the 4097th.
+  const std::string from_zero =
+      "[WIF]\n[WEAVING]\nShafts=3\n[THREADING]\n0=0\n1=1\n2=4096\n[LIFTPLAN]\n0=0\n1=1\n2=4096\n";
+  EXPECT_EQ(rows_of(from_zero), (Rows{"x..", ".x.", "..x"}));
+  EXPECT_EQ(rows_of("[WIF]\n[THREADING]\n0=1\n1=2\n[TIEUP]\n0=1\n4096=2\n[TREADLING]\n0=4096\n1=0\n"),
+            (Rows{".x", "x."}));
+  for (const char* number : {"4097", "2147483647", "2147483648", "4294967297", "-1", "-2147483648",
+                             "-9223372036854775808", "18446744073709551616"})
+    for (const char* line : {"3=3\n", "2=2,3\n", "Threads=8\n"}) {
+      const std::string key(line, std::string(line).find('=') + 1), changed = key + number + "\n";
+      if (key == "Threads=" && std::string(number) == "4097") continue;  // as many may be told
+      EXPECT_NE(wif_error(replaced(twill_wif, line, changed)).find("expected a whole number from 0 to"),
+                std::string::npos)
+          << changed;
+    }
+}
+
 TEST(Wif, ContradictionsAreFaults) {
   EXPECT_NE(wif_error(twill_wif + std::string("[THREADING]\n1=2\n")).find("there are two sections [THREADING]"),
             std::string::npos);

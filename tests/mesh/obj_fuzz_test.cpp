@@ -24,18 +24,19 @@ const std::string seeds[] = {
 std::string mutate(const std::string& seed, std::mt19937_64& random) {
   std::string text = seed;
   const auto below = [&](size_t n) { return size_t(random() % std::max<size_t>(n, 1)); };
-  static const std::string pieces[] = {"-",      "0",
-                                       "9",      "e",
-                                       "1e15",   "nan",
-                                       "/",      "//",
-                                       " ",      "\n",
-                                       "\\\n",   "\r",
-                                       "#",      "t crease 2/1/0 ",
-                                       "f ",     "v ",
-                                       "vt ",    "99999999999999999999",
-                                       "-1",     ".",
-                                       "\xFF",   "t hole 1/0/0 0\n",
-                                       "1 1 1\n"};
+  static const std::string pieces[] = {"-",       "0",
+                                       "9",       "e",
+                                       "1e15",    "nan",
+                                       "/",       "//",
+                                       " ",       "\n",
+                                       "\\\n",    "\r",
+                                       "#",       "t crease 2/1/0 ",
+                                       "f ",      "v ",
+                                       "vt ",     "99999999999999999999",
+                                       "-1",      ".",
+                                       "\xFF",    "t hole 1/0/0 0\n",
+                                       "1 1 1\n", "-9223372036854775808",
+                                       "\x1a"};
   for (size_t edits = 1 + below(6); edits > 0; --edits) {
     const size_t at = below(text.size());
     switch (below(5)) {

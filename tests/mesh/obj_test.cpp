@@ -116,9 +116,134 @@ TEST(Obj, RefusesAFileWithoutFaces) {
       "error: a.obj: holds no face, expected at least one\n"
       "  help: meshes are OBJ text with lines such as f 1 2 3: export it as one";
   EXPECT_EQ(error_of(""), none);
-  EXPECT_EQ(error_of(square), none);
-  EXPECT_EQ(error_of(square + "f 1 1 2\n"),
-            "error: a.obj: no face is left after dropping those that meet a vertex twice");
+  EXPECT_EQ(
+      error_of(square + "f 1 1 2\n"),
+      "error: a.obj:5: no face is left: its only one meets a vertex twice and crosses itself, has no area or is "
+      "too large to cut\n  help: name each vertex of a face once, in the order around it");
+  EXPECT_NE(error_of(square + "\nf 1 1 2\nf 1 2 1 2\n").find("a.obj:6: no face is left: all 2 meet a vertex twice"),
+            std::string::npos);
+}
+
+TEST(Obj, SaysWhatAFileWithoutFacesHolds) {
+  const auto expect_told = [](const std::string& text, const std::string& what) {
+    EXPECT_NE(error_of(text).find(what), std::string::npos) << error_of(text);
+  };
+  expect_told(square, "a.obj: holds no face, expected at least one; it holds 4 vertices\n  help: points alone");
+  expect_told(square + "cstype bezier\nsurf 0 1 0 1 1 2 4 3\nparm u 0 1\nend\nl 1 2\n",
+              "a.obj:6:1: error: holds no face, expected at least one; it holds 1 free-form surface, 1 line\n"
+              "    6 | surf 0 1 0 1 1 2 4 3\n      | ^^^^\n  help: export it as polygons");
+  expect_told(square + "curv 0 1 1 2 3 4\ncurv 0 1 1 2\n",
+              "a.obj:5:1: error: holds no face, expected at least one; "
+              "it holds 2 free-form curves");
+  expect_told(square + "l 1 2 3 4\n", "it holds 1 line");
+  expect_told(square + "l 1 2 3 4\n", "help: export its faces, not its edges alone");
+  expect_told(square + "p 1 2 3\np 4\np 1 2\n", "it holds 6 points");
+  expect_told("call other.obj\n",
+              "a.obj:1:1: error: holds no face, expected at least one; it calls other.obj, which is "
+              "not read");
+}
+
+TEST(Obj, TellsWhatIsMissingBesideItsFaces) {
+  const auto warning = [](const std::string& lines) {
+    const ControlMesh m = parse_obj(lines + square + "f 1 2 3 4\n", "a.obj");
+    EXPECT_EQ(m.warnings.size(), 1u) << lines;
+    return m.warnings.empty() ? "" : m.warnings[0];
+  };
+  EXPECT_EQ(warning("\ncall \x1b[31mother.obj\n"),
+            "a.obj:2: it calls \\x1b[31mother.obj, which is not followed: what is in there is missing");
+  EXPECT_EQ(warning("call b.obj\ncall c.obj\n"),
+            "a.obj:1: it calls 2 files, b.obj the first, which are not followed: what is in there is missing");
+  EXPECT_EQ(warning("csh -date\n"), "a.obj:1: 1 csh command is not run");
+  EXPECT_EQ(warning("surf 0 1 0 1 1 2 4 3\n"),
+            "a.obj:1: 1 free-form surface is passed over and missing: export it as polygons");
+  EXPECT_EQ(warning("curv 0 1 1 2\ncurv 0 1 2 3\n"), "a.obj:1: 2 free-form curves are passed over");
+  // Nothing of the cloth is missing without these.
+  EXPECT_TRUE(parse_obj(square + "l 1 2\np 3\ns 1\nvn 0 0 1\nmtllib a.mtl\nf 1 2 3 4\n", "a").warnings.empty());
+}
+
+TEST(Obj, RefusesIndicesBelowTheFirstHoweverSmall) {
+  for (const std::string index :
+       {"-9223372036854775808", "-9223372036854775807", "-4294967297", "-2147483649", "-5"}) {
+    EXPECT_EQ(error_of(square + "f 1 2 " + index + "\n")
+                  .find("a.obj:5:7: error: vertex index is " + index + ", expected -1 to -4\n"),
+              0u)
+        << index;
+    EXPECT_EQ(error_of(square + "vt 0 0\nf 1/1 2/1 3/" + index + "\n")
+                  .find("a.obj:6:13: error: texture coordinate index is " + index + ", expected -1 to -1\n"),
+              0u)
+        << index;
+  }
+  EXPECT_NE(error_of(square + "f 1 2 -9223372036854775809\n").find("vertex index is '-9223372036854775809'"),
+            std::string::npos);
+  EXPECT_NE(error_of(square + "f 1 2 9223372036854775807\n").find("expected at most 2147483647"), std::string::npos);
+  // Vertices that come later are no vertices before.
+  EXPECT_EQ(error_of(square + "f 1 2 3 -9223372036854775808\nv 5 5 5\n").find("a.obj:5:9: error: vertex index is "),
+            0u);
+  EXPECT_EQ(error_of("f -1 -2 -3\n" + square)
+                .find("a.obj:1:3: error: vertex index is -1, but no vertex stands before "
+                      "it\n"),
+            0u);
+  EXPECT_EQ(
+      error_of(square + "f 1/-1 2/-1 3/-1\nvt 0 0\n")
+          .find("a.obj:5:5: error: texture coordinate index is -1, but no texture coordinate stands before it\n"),
+      0u);
+  for (const std::string tag : {"crease 2/1/0 0 ", "corner 1/1/0 ", "hole 1/0/0 ", "interpolateboundary 1/0/0 "})
+    for (const std::string index : {"-9223372036854775808", "9223372036854775807"})
+      EXPECT_EQ(error_of(square + "f 1 2 3 4\nt " + tag + index + " 1\n").find("a.obj:6:"), 0u) << tag << index;
+}
+
+TEST(Obj, TakesMicrosoftsWordsForNoNumberAsSuch) {
+  for (const std::string word :
+       {"-1.#IND00", "1.#IND", "1.#QNAN", "-1.#QNAN0", "1.#SNAN", "1.#INF", "-1.#INF00", "1.#J"}) {
+    EXPECT_EQ(error_of("v 0 0 0\nv 1 0 " + word + "\nv 1 1 0\nf 1 2 3\n")
+                  .find("a.obj:2:7: error: z is " + word + ", expected a finite number below 1e15\n"),
+              0u)
+        << word;
+    const ControlMesh m = parse_obj(square + "vt 0 0\nvt 1 " + word + "\nf 1/1 2/2 3/1\n", "a.obj");
+    ASSERT_EQ(m.warnings.size(), 1u) << word;
+    EXPECT_EQ(m.warnings[0].find("a.obj:6: 1 texture coordinate is not finite"), 0u) << m.warnings[0];
+  }
+  EXPECT_NE(error_of("v 0 0 1#x\n").find("z is '1#x', expected a number"), std::string::npos);
+  // A comment begins with a word, and a # inside one belongs to it.
+  const ControlMesh m = parse_obj(square + "usemtl a#1\nf 1 2 3 #4\nusemtl a#2\n\tf 1 3 4\n#f 1\n", "a.obj");
+  EXPECT_EQ(m.face_sizes, (std::vector<int>{3, 3}));
+  EXPECT_EQ(m.warnings.at(0), "a.obj: its 2 materials (a#1, a#2) are all rendered with one look");
+}
+
+TEST(Obj, NamesTextInSixteenBits) {
+  std::string wide;
+  for (const char c : square + "f 1 2 3 4\n") wide += {c, '\0'};
+  EXPECT_EQ(error_of("\xff\xfe" + wide),
+            "error: a.obj: is UTF-16 text, expected UTF-8 or plain ASCII text\n  help: save it as UTF-8");
+  EXPECT_NE(error_of("\xfe\xff").find("is UTF-16 text,"), std::string::npos);
+  EXPECT_NE(error_of(wide).find("is UTF-16 text, or no text at all"), std::string::npos);
+  EXPECT_NE(error_of(wide.substr(1)).find("is UTF-16 text, or no text at all"), std::string::npos);
+}
+
+TEST(Obj, ReadsLineEndsOfEverySystemAlsoInOneFile) {
+  const std::string text = square + "f 1 2 3 4\n";
+  const std::vector<Vec3> positions = parse_obj(text, "a").positions;
+  for (const std::string end : {"\r", "\r\n", "\r\r\n"}) {
+    std::string other;
+    for (const char c : text) other += c == '\n' ? end : std::string(1, c);
+    EXPECT_EQ(parse_obj(other, "a").positions, positions);
+    EXPECT_EQ(parse_obj("# by hand\n" + other, "a").positions, positions) << "with a line feed somewhere";
+    EXPECT_EQ(parse_obj(other + "# by hand\n", "a").face_sizes.size(), 1u);
+    EXPECT_EQ(error_of(other + "f 1 2 9" + end).find("a.obj:6:7: error:"), 0u);
+  }
+}
+
+TEST(Obj, PassesOverTheEndOfTextThatDosWrites) {
+  const std::string end = "\x1a", zeros(3, '\0');
+  for (const std::string& text :
+       {square + "f 1 2 3 4" + end, square + "f 1 2 3 4\r\n" + end, square + "f 1 2 3 4\n" + end + end + zeros,
+        square + "f 1 2 3 4" + end + "\nv 5 5 5\n",
+        square + end + "f 1 2 3 4\n" + end + "v 5 5 5" + end + "\n" + end}) {
+    const ControlMesh m = parse_obj(text, "a.obj");
+    EXPECT_EQ(m.position_indices, (std::vector<int>{0, 1, 2, 3}));
+    EXPECT_TRUE(m.warnings.empty()) << m.warnings[0];
+  }
+  EXPECT_NE(error_of(square + "f 1 2" + end + "3 4\n").find("vertex index is '2"), std::string::npos);
 }
 
 TEST(Obj, ReportsAllErrorsAtOnceButNoMoreThanTwentyInFull) {
@@ -160,6 +285,9 @@ TEST(Obj, RefusesALineAboveOneMebibyte) {
   const std::string error = error_of(text + "\n");
   EXPECT_EQ(error.substr(0, 50), "a.obj:5:1: error: line is longer than 1 MiB\n    5 ");
   EXPECT_EQ(error_of(square + "#" + std::string((1 << 20) - 1, 'x') + "\nf 1 2 3\n"), "no error");
+  // Nothing in a comment is read, however long.
+  EXPECT_EQ(error_of("# " + std::string(3 << 20, 'x') + "\n" + square + "f 1 2 3\n"), "no error");
+  EXPECT_EQ(error_of(square + "  # " + std::string(3 << 20, 'x') + "\nf 1 2 3\n"), "no error");
 }
 
 TEST(Obj, DropsRepeatedVerticesAndCountsThem) {

@@ -1,11 +1,14 @@
 // The torture meshes: each must come out as a sound mesh or as an error with a text, at every level.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "base/error.h"
+#include "mesh/limit_surface.h"
 #include "mesh/mesh_checks.h"
 #include "mesh/obj.h"
 #include "mesh/subdivide.h"
 #include "mesh/torture_meshes.h"
+#include "mesh/uniform_refinement.h"
 
 namespace sateen {
 namespace {
@@ -89,6 +92,99 @@ TEST(TortureMeshes, AFullPoleIsSmooth) {
   for (size_t i = 0; i < mesh.positions.size(); ++i)
     if (mesh.positions[i].z > mesh.positions[apex].z) apex = i;
   EXPECT_NEAR(mesh.normals[apex].z, 1, 1e-4);
+}
+
+bool refined_uniformly(const std::string& text) {
+  const ControlMesh cage = parse_obj(text, "a.obj");
+  return needs_uniform_refinement(cage_topology(cage, control_points(cage))->GetLevel(0));
+}
+
+std::string creased_pole(int valence, int sharpnesses) {
+  std::string text = pole(valence);
+  for (int i = 0; i < valence; ++i) text += fmt::format("t crease 2/1/0 0 {} {}\n", i + 1, 1 + i % sharpnesses);
+  return text;
+}
+
+std::string open_fan(int faces) {
+  std::string text = "v 0 0 0.3\n" + polygon(faces + 2, 1, 0);
+  for (int i = 0; i < faces; ++i) text += fmt::format("f 1 {} {}\n", i + 2, i + 3);
+  return text;
+}
+
+/// A ball of `segments` by `rings`, with one seam of its UVs or with as many at the poles as faces.
+std::string ball(int segments, int rings, bool split_poles) {
+  std::string text = "v 0 0 1\nv 0 0 -1\n";
+  for (int j = 1; j < rings; ++j)
+    text += polygon(segments, std::sin(pi * float(j) / float(rings)), std::cos(pi * float(j) / float(rings)));
+  for (int j = 0; j <= rings; ++j)
+    for (int i = 0; i <= segments; ++i) text += fmt::format("vt {} {}\n", i, j);
+  const auto corner = [&](int i, int j) {
+    const int pole_uv = split_poles ? i : 0;
+    if (j == 0) return fmt::format(" 1/{}", pole_uv + 1);
+    if (j == rings) return fmt::format(" 2/{}", rings * (segments + 1) + pole_uv + 1);
+    return fmt::format(" {}/{}", 3 + (j - 1) * segments + i % segments, j * (segments + 1) + i + 1);
+  };
+  for (int j = 0; j < rings; ++j)
+    for (int i = 0; i < segments; ++i)
+      text += "f" + corner(i, j) + (j + 1 < rings ? corner(i, j + 1) + corner(i + 1, j + 1) : corner(i, rings)) +
+              (j > 0 ? corner(i + 1, j) : "") + "\n";
+  return text;
+}
+
+TEST(TortureMeshes, PatchesAreUsedWhereTheyAreAlikeOrFewAndNotWhereTheyGrowWithTheCube) {
+  for (const int n : {16, 64, 128, 360}) EXPECT_FALSE(refined_uniformly(pole(n))) << n;
+  for (const int n : {16, 32, 64, 90}) {
+    EXPECT_FALSE(refined_uniformly(open_fan(n))) << n;
+    EXPECT_FALSE(refined_uniformly(creased_pole(n, 5))) << n;
+  }
+  for (const int n : {16, 64, 128}) EXPECT_FALSE(refined_uniformly(ball(n, n / 2, true))) << n;
+  EXPECT_FALSE(refined_uniformly(ball(64, 32, false)));
+  EXPECT_FALSE(refined_uniformly(creased_pole(200, 1))) << "alike all around";
+  for (const int n : {120, 200, 400}) {
+    EXPECT_TRUE(refined_uniformly(open_fan(n))) << n;
+    EXPECT_TRUE(refined_uniformly(creased_pole(n, 7))) << n;
+  }
+  EXPECT_TRUE(refined_uniformly(ball(300, 3, false))) << "a seam cuts the fans of its UVs";
+  // Many of what one mesh may have once: the effort is that of the whole. Equal ones share.
+  const auto fans = [](int step) {
+    std::string vertices, faces;
+    int first = 1;
+    for (int k = 0; k < 8; ++k) {
+      const int n = 80 + step * k;
+      vertices += "v 0 0 0.3\n" + polygon(n, 1, 0);
+      for (int i = 1; i < n; ++i) faces += fmt::format("f {} {} {}\n", first, first + i, first + i + 1);
+      first += n + 1;
+    }
+    return vertices + faces;
+  };
+  EXPECT_FALSE(refined_uniformly(fans(0)));
+  EXPECT_TRUE(refined_uniformly(fans(1)));
+}
+
+TEST(TortureMeshes, AFanCostsWhatItsFacesCostWhateverIsWrongWithIt) {
+  const auto peak_megabytes = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / 1024;
+  };
+  const auto seconds = [] { return double(clock()) / CLOCKS_PER_SEC; };
+  const double before = peak_megabytes(), start = seconds();
+  for (const int n : {50, 100, 200, 400, 1000, 5000})
+    for (const int twice : {1, 7, n}) {
+      SCOPED_TRACE(fmt::format("{} faces, {} of them twice", n, twice));
+      std::string text = pole(n);
+      for (int i = 0; i < twice; ++i) text += fmt::format("f 1 {} {}\n", i + 2, (i + 1) % n + 2);
+      const Mesh mesh = subdivide(parse_obj(text, "fan.obj"), 1);
+      EXPECT_TRUE(mesh.refined);
+      expect_sound(mesh);
+    }
+  for (const int n : {50, 400, 5000}) {
+    expect_sound(subdivide(parse_obj(creased_pole(n, 7), "creased.obj"), 1));
+    expect_sound(subdivide(parse_obj(open_fan(n), "open.obj"), 1));
+  }
+  // Sanitizers take several times as much of both; the duplicate of 400 alone took 3,000 MB and 36 s.
+  EXPECT_LT(peak_megabytes() - before, 600);
+  EXPECT_LT(seconds() - start, 15);
 }
 
 TEST(TortureMeshes, TenMillionTrianglesWork) {
