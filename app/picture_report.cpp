@@ -1,11 +1,11 @@
 #include "picture_report.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 
 #include "base/files.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "console.h"
 #include "exit_code.h"
@@ -89,10 +89,9 @@ std::string forecast_text(const Forecast& f) {
   return fmt::format("{:.{}f} s ({:.{}f} to {:.{}f})", f.value, digits, f.low, digits, f.high, digits);
 }
 
+// Not of getrusage(2), which begins with what the process was before it became this program.
 long long peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return (long long)(usage.ru_maxrss) * 1024;
+  return memory_use().peak;
 }
 
 }  // namespace
