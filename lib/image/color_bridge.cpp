@@ -114,6 +114,8 @@ using Vector = std::array<double, 3>;
 /// The matrix from scene_linear to a space; nullopt where there is none: the space has a curve, or a look in it.
 /// Throws OpenColorIO's exception where the conversion cannot be built in either direction.
 std::optional<Matrix3> matrix_to(const ocio::Config& config, const std::string& space) {
+  if (const std::string ring = ring_between(config, space, "scene_linear"); !ring.empty())
+    throw ocio::Exception(("names lead back to themselves without end: " + ring).c_str());
   config.getProcessor(space.c_str(), "scene_linear")->getDefaultCPUProcessor();
   const auto processor = config.getProcessor("scene_linear", space.c_str())->getDefaultCPUProcessor();
   const auto run = [&](float r, float g, float b) {

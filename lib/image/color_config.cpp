@@ -55,6 +55,11 @@ ocio::ConstConfigRcPtr read_color_config(const std::string& path, const std::str
   if (!config->getColorSpace("scene_linear"))
     refuse(fmt::format("{}: its role scene_linear names a colour space that it does not define", path), {});
   if (config->getNumDisplays() == 0) refuse(fmt::format("{}: has no display", path), {});
+  for (const std::string& ring : reference_rings(*config))
+    warnings.push_back(
+        fmt::format("{}: names in this colour config lead back to themselves without end: {}; what leads there "
+                    "cannot be used by a picture",
+                    path, ring));
   try {
     config->validate();
   } catch (const ocio::Exception& error) {
