@@ -9,6 +9,7 @@
 #include "base/file_identity.h"
 #include "image/exr_header.h"
 #include "image/exr_light.h"
+#include "image/exr_picture.h"
 #include "image/file.h"
 #include "image/oiio/functions.h"
 #include "image/radiance.h"
