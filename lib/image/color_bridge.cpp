@@ -7,6 +7,7 @@
 
 #include "image/chromaticities.h"
 #include "image/color_config.h"
+#include "image/space_names.h"
 
 namespace sateen {
 
@@ -88,6 +89,15 @@ bool goes_by(const std::string& name, const KnownSpace& space) {
   for (const std::string& reading : readings(name))
     if (std::find(space.names.begin(), space.names.end(), reading) != space.names.end()) return true;
   return false;
+}
+
+/// Not linear, so no bridge, but known by its names in files.
+const KnownSpace& encoded_srgb() {
+  static const KnownSpace one{"srgb_texture",
+                              "sRGB",
+                              {"srgb", "srgbtexture", "srgbrec709scene", "srgbrec709display", "srgbdisplay", "srgbtx",
+                               "srgbencodedrec709", "srgbencodedrec709srgb"}};
+  return one;
 }
 
 /// Names of the config's spaces that go by one of the known names, the roles' first: a line among the roles is how
@@ -200,6 +210,17 @@ double largest_difference(const Matrix3& a, const Matrix3& b) {
 }
 
 }  // namespace
+
+std::string own_space_called(const std::string& name) {
+  for (const KnownSpace& known : known_spaces())
+    if (goes_by(name, known)) return known.own;
+  return goes_by(name, encoded_srgb()) ? encoded_srgb().own : "";
+}
+
+bool says_nothing(const std::string& name) {
+  const std::string word = plain(name);
+  return word == "linear" || word == "scenelinear" || word == "lin" || word == "unknown" || word == "default";
+}
 
 Bridge find_bridge(const ocio::Config& foreign, const std::string& file, ocio::Config& own,
                    std::vector<std::string>& warnings) {

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "image/chromaticities.h"
 #include "image/light_file.h"
+#include "image/space_names.h"
 #include "scene/environment_build.h"
 #include "scene/environment_repair.h"
 #include "scene/environment_rows.h"
@@ -65,6 +66,14 @@ void xyz_to_working(Image& map, const LightFileInfo& info, const ColorManager& c
   colors.chromaticities_to_working(map, rgb);
 }
 
+// The file's word for its colours, where it has one that counts and nobody knows it.
+std::string unknown_space(const LightFileInfo& info, const ColorManager& colors, const std::string& flag) {
+  const std::string& name = info.color_space;
+  if (!flag.empty() || info.xyz || info.chromaticities || name.empty() || says_nothing(name)) return {};
+  if (name == "sRGB" || colors.has_space(name) || !own_space_called(name).empty()) return {};
+  return fmt::format("the file says that its colour space is {:.60}, which is not known", name);
+}
+
 // Converts in place and says what was used and why.
 std::string convert(Image& map, const fs::path& path, const LightFileInfo& info, const ColorManager& colors,
                     const std::string& flag) {
@@ -91,6 +100,8 @@ std::string convert(Image& map, const fs::path& path, const LightFileInfo& info,
     return by_name("srgb_texture", integer ? "the file says sRGB" : "the file's metadata");
   if (!info.color_space.empty() && colors.has_space(info.color_space))
     return by_name(info.color_space, "the file's metadata");
+  if (const std::string own = own_space_called(info.color_space); !own.empty())
+    return by_name(own, fmt::format("the file says {:.60}", info.color_space).c_str());
   if (const auto rule = colors.space_of_file(path.string()))
     return by_name(*rule, "a file rule of the colour config");
   return integer ? by_name("srgb_texture", "usual for integer pixels")
@@ -195,7 +206,10 @@ Environment read_environment(const std::string& path_or_name, const ColorManager
   if (used_space) *used_space = space;
   finish_environment(environment);
   environment.repairs = mender.repairs();
-  if (!environment.repairs.infinite.count) environment.repairs.infinite = held;
+  // What was infinite is as bright as what is held, and told already.
+  if (!environment.repairs.infinite.count) tell_held(environment, held);
+  if (const std::string doubt = unknown_space(info, colors, options.color_space); !doubt.empty())
+    environment.doubts.push_back(fmt::format("{}; taken as {}; --env-space NAME says what it is", doubt, space));
   return environment;
 }
 
