@@ -19,9 +19,6 @@ namespace sateen {
 namespace fs = std::filesystem;
 
 namespace {
-// Held is a band of rows: what becomes of them is the caller's to limit.
-constexpr ImageLimits read_in_bands{1000000, 1ll << 62};
-
 // The library's words, on one line, behind ours.
 std::string because(const std::exception& error) {
   std::string text = error.what();
@@ -132,6 +129,9 @@ class OpenPicture : public ExrPicture {
       info.chromaticities = ColorManager::Chromaticities{
           {c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
     }
+    const auto row = [&](long long y) { return int(std::clamp(y - display_.min.y, 0ll, (long long)(info.height))); };
+    info.first_row = row(data_.min.y);
+    info.end_row = row(data_.max.y + 1ll);
     outside = outside_text(data_, display_);
     cube = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE;
   }

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file_identity.h"
+#include "base/memory.h"
 #include "image/exr_header.h"
 #include "image/oiio/functions.h"
 #include "image/plain_exr.h"
@@ -71,10 +72,12 @@ ImageFileInfo read_image_info(const fs::path& path) {
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
   note_file_read(path);
-  check_exr_header(path);
-  if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
-  if (is_radiance(path)) return read_radiance(path, limits, info);
-  return image_file_functions().read_pixels(path, limits, info);
+  return name_where_memory_ends(path, [&] {
+    check_exr_header(path);
+    if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
+    if (is_radiance(path)) return read_radiance(path, limits, info);
+    return image_file_functions().read_pixels(path, limits, info);
+  });
 }
 
 void load_display_writer() {

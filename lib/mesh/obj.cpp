@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "base/memory.h"
 #include "mesh/check_cage.h"
 #include "mesh/cut_polygon.h"
 #include "mesh/obj_groups.h"
@@ -365,10 +366,12 @@ ControlMesh parse_obj(std::string_view text, const std::string& name) {
 
 ControlMesh read_obj(const std::filesystem::path& path) {
   constexpr std::uint64_t limit = std::uint64_t(16) << 30;
-  std::string text = read_text_file(path, limit);
-  // Lines as the first Macintoshes ended them.
-  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
-  return parse_obj(text, path.string());
+  return name_where_memory_ends(path, [&] {
+    std::string text = read_text_file(path, limit);
+    // Lines as the first Macintoshes ended them.
+    if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+    return parse_obj(text, path.string());
+  });
 }
 
 }  // namespace sateen

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "image/alpha.h"
 #include "image/exr_picture.h"
 #include "image/exr_texture.h"
@@ -161,7 +162,8 @@ UvTexture read_uv_texture(const TextureValue& value, const std::string& field, c
   const PixelCounts before = counts;
   try {
     for (const TextureFile& file : texture_files(value.path)) {
-      const Picture picture = read_picture(file.path, value, colors, use.is_color, counts);
+      const Picture picture = name_where_memory_ends(
+          file.path, [&] { return read_picture(file.path, value, colors, use.is_color, counts); });
       const TextureWrap wrap = texture.udim ? TextureWrap::clamp : value.wrap;
       const bool once = !texture.udim && wrap == TextureWrap::clamp && has_clear_border(picture);
       if (once) texture.under = use.under;
