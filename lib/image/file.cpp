@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "image/exr_header.h"
 #include "image/oiio/functions.h"
+#include "image/picture_file.h"
 #include "image/plain_exr.h"
 #include "image/radiance.h"
 
@@ -66,12 +67,14 @@ Image read_radiance(const fs::path& path, const ImageLimits& limits, ImageFileIn
 }  // namespace
 
 ImageFileInfo read_image_info(const fs::path& path) {
+  check_picture_file(path);
   check_exr_header(path);
   return image_file_functions().read_info(path);
 }
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
   note_file_read(path);
+  check_picture_file(path);
   return name_where_memory_ends(path, [&] {
     check_exr_header(path);
     if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
@@ -85,10 +88,12 @@ void load_display_writer() {
 }
 
 bool image_decodes(const fs::path& path) {
+  check_picture_file(path);
   return image_file_functions().decodes(path);
 }
 
 Attributes read_attributes(const fs::path& path) {
+  check_picture_file(path);
   return image_file_functions().read_texts(path);
 }
 

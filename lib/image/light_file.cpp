@@ -12,6 +12,7 @@
 #include "image/exr_picture.h"
 #include "image/file.h"
 #include "image/oiio/functions.h"
+#include "image/picture_file.h"
 #include "image/radiance.h"
 
 namespace sateen {
@@ -69,6 +70,7 @@ std::string first_bytes(const fs::path& path, size_t count) {
 std::unique_ptr<LightFile> open_light_file(const fs::path& path, const std::string& layer,
                                            const ImageLimits& limits) {
   note_file_read(path);
+  check_picture_file(path);
   if (is_exr_file(path)) {
     check_exr_header(path);
     return open_exr_light(path, layer, limits);
