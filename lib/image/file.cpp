@@ -12,6 +12,7 @@
 #include "image/oiio/functions.h"
 #include "image/picture_file.h"
 #include "image/plain_exr.h"
+#include "image/png_chunks.h"
 #include "image/radiance.h"
 
 namespace sateen {
@@ -79,6 +80,7 @@ Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo*
     check_exr_header(path);
     if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
     if (is_radiance(path)) return read_radiance(path, limits, info);
+    check_png_chunks(path);
     return image_file_functions().read_pixels(path, limits, info);
   });
 }
@@ -89,6 +91,11 @@ void load_display_writer() {
 
 bool image_decodes(const fs::path& path) {
   check_picture_file(path);
+  try {
+    check_png_chunks(path);
+  } catch (const InputError&) {
+    return false;
+  }
   return image_file_functions().decodes(path);
 }
 

@@ -13,6 +13,7 @@
 #include "image/file.h"
 #include "image/oiio/functions.h"
 #include "image/picture_file.h"
+#include "image/png_chunks.h"
 #include "image/radiance.h"
 
 namespace sateen {
@@ -79,6 +80,7 @@ std::unique_ptr<LightFile> open_light_file(const fs::path& path, const std::stri
     refuse_picture(path, fmt::format("has no layers, and \"{:.60}\" was asked for", layer),
                    "--env-layer is for OpenEXR files");
   if (is_radiance(path)) return open_radiance(path, limits);
+  check_png_chunks(path);
   return std::make_unique<WholeLight>(path, limits);
 }
 
