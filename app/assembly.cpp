@@ -11,6 +11,8 @@ Assembly assemble_picture(PictureFlags& flags, const std::string& command_line, 
   flags.display = settle_display(flags.display, colors);
   SceneReport report;
   Scene scene = assemble_scene(flags.scene, colors, report);
+  if (const std::string fault = display_fault(flags.display, colors); !fault.empty())
+    report.warnings.push_back(fault);
   PictureJob job = plan_picture(flags, report, scene, colors, command_line, begun);
   return {std::move(colors), std::move(report), std::move(scene), std::move(job)};
 }

@@ -107,6 +107,8 @@ class Turntable {
     p.display = settle_display(p.display, colors_);
     p.scene.from_all_around = flags_.turn != "light";
     scene_ = assemble_scene(p.scene, colors_, report_);
+    if (const std::string fault = display_fault(p.display, colors_); !fault.empty())
+      report_.warnings.push_back(fault);
     const Turn turn = Turn(std::find(turn_names().begin(), turn_names().end(), flags_.turn) - turn_names().begin());
     report_.metered_ev = turntable_exposure(scene_.environment, turn, p.scene.camera.azimuth_deg,
                                             p.scene.environment_ev, flags_.degrees);

@@ -10,6 +10,8 @@
 #include <limits>
 #include <sstream>
 
+#include "base/error.h"
+
 namespace sateen {
 
 namespace {
@@ -91,6 +93,11 @@ MemoryRoom memory_room() {
   consider(RLIMIT_AS, use.addresses, "ulimit -v");
   consider(RLIMIT_DATA, use.data, "ulimit -d");
   return room;
+}
+
+void refuse_for_memory(const std::filesystem::path& path) {
+  throw OperationError(
+      fmt::format("{}: there is not enough memory to read it ({})", path.string(), memory_room().limit));
 }
 
 std::string memory_text(std::int64_t bytes) {

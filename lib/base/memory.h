@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
+#include <new>
 #include <string>
 
 namespace sateen {
@@ -24,5 +26,17 @@ MemoryRoom memory_room();
 
 /// "1.2 GB", "350 MB".
 std::string memory_text(std::int64_t bytes);
+
+/// OperationError that names the file which was being read when memory ran out.
+[[noreturn]] void refuse_for_memory(const std::filesystem::path& path);
+
+template <class Call>
+auto name_where_memory_ends(const std::filesystem::path& path, Call&& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    refuse_for_memory(path);
+  }
+}
 
 }  // namespace sateen

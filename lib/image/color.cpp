@@ -29,6 +29,12 @@ struct Space {
 };
 
 using Steps = std::vector<ocio::ConstCPUProcessorRcPtr>;
+
+void refuse_ring(const std::string& what, const std::string& ring) {
+  if (!ring.empty())
+    throw InputError(fmt::format("{}: names in the config lead back to themselves without end: {}", what, ring),
+                     "take another space or view, or mend the config");
+}
 }  // namespace
 
 struct ColorManager::State {
@@ -58,7 +64,12 @@ struct ColorManager::State {
     const std::lock_guard guard(lock);
     auto& steps = known[{from, to}];
     if (!steps.empty()) return steps;
-    steps.push_back(guarded(fmt::format("cannot convert from {} to {} under {}", from.name, to.name, text), [&] {
+    const std::string what = fmt::format("cannot convert from {} to {} under {}", from.name, to.name, text);
+    if (!from.own || !to.own) {
+      const auto near = [&](const Space& s) { return s.own ? bridge.foreign : s.name; };
+      refuse_ring(what, ring_between(*config, near(from), near(to)));
+    }
+    steps.push_back(guarded(what, [&] {
       if (from.own == to.own)
         return config_of(from)->getProcessor(from.name.c_str(), to.name.c_str())->getDefaultCPUProcessor();
       const auto name = [&](const Space& s) { return (s.own ? bridge.own : bridge.foreign).c_str(); };
@@ -202,11 +213,13 @@ void ColorManager::to_display(Image& image, const std::string& display, const st
     source = {false, "scene_linear"};
     run(s.convert(s.working, source), image);
   }
-  const ocio::ConstCPUProcessorRcPtr processor =
-      guarded(fmt::format("the view {} of the display {} cannot be used under {}", view, display, s.text), [&] {
-        return s.config->getProcessor(source.name.c_str(), display.c_str(), view.c_str(), ocio::TRANSFORM_DIR_FORWARD)
-            ->getDefaultCPUProcessor();
-      });
+  const std::string what =
+      fmt::format("the view {} of the display {} cannot be used under {}", view, display, s.text);
+  refuse_ring(what, ring_of_view(*s.config, source.name, display, view));
+  const ocio::ConstCPUProcessorRcPtr processor = guarded(what, [&] {
+    return s.config->getProcessor(source.name.c_str(), display.c_str(), view.c_str(), ocio::TRANSFORM_DIR_FORWARD)
+        ->getDefaultCPUProcessor();
+  });
   run({processor}, image);
   for (size_t i = 0; i < count; ++i)
     for (int c = 0; c < colours; ++c) {

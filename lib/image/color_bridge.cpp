@@ -7,6 +7,7 @@
 
 #include "image/chromaticities.h"
 #include "image/color_config.h"
+#include "image/space_names.h"
 
 namespace sateen {
 
@@ -90,6 +91,15 @@ bool goes_by(const std::string& name, const KnownSpace& space) {
   return false;
 }
 
+/// Not linear, so no bridge, but known by its names in files.
+const KnownSpace& encoded_srgb() {
+  static const KnownSpace one{"srgb_texture",
+                              "sRGB",
+                              {"srgb", "srgbtexture", "srgbrec709scene", "srgbrec709display", "srgbdisplay", "srgbtx",
+                               "srgbencodedrec709", "srgbencodedrec709srgb"}};
+  return one;
+}
+
 /// Names of the config's spaces that go by one of the known names, the roles' first: a line among the roles is how
 /// one says what a space is.
 std::vector<std::string> spaces_called(const ocio::Config& config, const KnownSpace& known) {
@@ -114,6 +124,8 @@ using Vector = std::array<double, 3>;
 /// The matrix from scene_linear to a space; nullopt where there is none: the space has a curve, or a look in it.
 /// Throws OpenColorIO's exception where the conversion cannot be built in either direction.
 std::optional<Matrix3> matrix_to(const ocio::Config& config, const std::string& space) {
+  if (const std::string ring = ring_between(config, space, "scene_linear"); !ring.empty())
+    throw ocio::Exception(("names lead back to themselves without end: " + ring).c_str());
   config.getProcessor(space.c_str(), "scene_linear")->getDefaultCPUProcessor();
   const auto processor = config.getProcessor("scene_linear", space.c_str())->getDefaultCPUProcessor();
   const auto run = [&](float r, float g, float b) {
@@ -198,6 +210,17 @@ double largest_difference(const Matrix3& a, const Matrix3& b) {
 }
 
 }  // namespace
+
+std::string own_space_called(const std::string& name) {
+  for (const KnownSpace& known : known_spaces())
+    if (goes_by(name, known)) return known.own;
+  return goes_by(name, encoded_srgb()) ? encoded_srgb().own : "";
+}
+
+bool says_nothing(const std::string& name) {
+  const std::string word = plain(name);
+  return word == "linear" || word == "scenelinear" || word == "lin" || word == "unknown" || word == "default";
+}
 
 Bridge find_bridge(const ocio::Config& foreign, const std::string& file, ocio::Config& own,
                    std::vector<std::string>& warnings) {

@@ -28,6 +28,16 @@ auto guarded(const std::string& what, Call&& call) {
 OCIO_NAMESPACE::ConstConfigRcPtr read_color_config(const std::string& path, const std::string& origin,
                                                    std::vector<std::string>& warnings);
 
+/// Rings in a config, each as "a -> the look b -> a": names in transforms that lead back to themselves, through
+/// colour spaces, named transforms, looks, view transforms and views. OpenColorIO would follow them without end, so
+/// nothing may be built that leads into one. Chains that are too long or fork too often to be followed count as well.
+std::vector<std::string> reference_rings(const OCIO_NAMESPACE::Config& config);
+
+/// The ring that a conversion, or a view, leads into; empty where there is none.
+std::string ring_between(const OCIO_NAMESPACE::Config& config, const std::string& from, const std::string& to);
+std::string ring_of_view(const OCIO_NAMESPACE::Config& config, const std::string& from, const std::string& display,
+                         const std::string& view);
+
 /// The project's own; where a foreign config's XYZ has another white than D65, a space of it is added.
 OCIO_NAMESPACE::ConfigRcPtr built_in_color_config();
 

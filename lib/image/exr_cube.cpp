@@ -21,6 +21,8 @@ class CubeLight : public LightFile {
     info.width = 4 * faces_.width;
     info.height = 2 * faces_.width;
     info.whole = true;
+    info.first_row = 0;
+    info.end_row = info.height;
     info.notes.push_back(fmt::format("its cube of six faces of {0} x {0} was made a lat-long map of {1} x {2}",
                                      faces_.width, info.width, info.height));
     faces->read_rows(0, faces_.height, faces_.pixels.data());

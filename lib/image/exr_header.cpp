@@ -49,17 +49,21 @@ void check_exr_header(const std::filesystem::path& path) {
   Reader in{std::ifstream(path, std::ios::binary), std::uint64_t(size)};
   std::uint32_t found = 0, version = 0, bytes = 0;
   const std::uint32_t wanted = magic[0] | magic[1] << 8 | magic[2] << 16 | std::uint32_t(magic[3]) << 24;
-  if (!in.number(found) || found != wanted || !in.number(version)) return;
+  const auto refuse_short = [&] {
+    refuse_picture(path, "ends within its header", "the file is damaged or cut short: write it again");
+  };
+  if (!in.number(found) || found != wanted) return;
+  if (!in.number(version)) refuse_short();
   std::string name, type;
   for (bool begins = true;;) {
-    if (!in.name(name)) return;
+    if (!in.name(name)) return in.left == 0 ? refuse_short() : void();
     if (name.empty()) {  // the end of a header; of several parts an empty one ends them all
       if (begins || !(version & multi_part)) return;
       begins = true;
       continue;
     }
     begins = false;
-    if (!in.name(type) || !in.number(bytes)) return;
+    if (!in.name(type) || !in.number(bytes)) return in.left < 4 ? refuse_short() : void();
     if (bytes > in.left)
       refuse_picture(path,
                      fmt::format("its attribute {} claims {} bytes, and {} are left of the file", printable(name),

@@ -65,11 +65,54 @@ std::string find_channel(const Group& group, std::initializer_list<const char*> 
   return {};
 }
 
-/// Channels that stand alone in files of matte, depth and the like.
-bool is_no_light(const std::string& channel) {
-  constexpr const char* names[] = {"a", "alpha", "z", "zback", "depth", "id", "u", "v"};
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_alpha(const std::string& channel) {
   const std::string name = lower(behind_dot(channel));
-  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  return name == "a" || name == "alpha";
+}
+
+/// What files of mattes, depths, names of objects and the like call them, without signs and numbers.
+bool names_no_light(const std::string& word) {
+  static const std::vector<std::string> names{"a",       "alpha",    "z",        "zback",     "depth",
+                                              "zdepth",  "id",       "objectid", "objid",     "materialid",
+                                              "matid",   "assetid",  "index",    "indexob",   "indexma",
+                                              "u",       "v",        "uv",       "mask",      "matte",
+                                              "holdout", "coverage", "ao",       "occlusion", "ambientocclusion"};
+  std::string name;
+  for (const char c : lower(word))
+    if (std::isalpha(static_cast<unsigned char>(c))) name += c;
+  return contains(names, name) || name.find("crypto") != std::string::npos;
+}
+
+/// By the channel's own word and the layer's: "Depth.Z", "AO.Y".
+bool is_no_light(const ExrPart& part, const std::string& channel) {
+  return contains(part.whole_numbers, channel) || names_no_light(behind_dot(channel)) ||
+         names_no_light(behind_dot(before_dot(channel)));
+}
+bool is_no_light(const std::vector<ExrPart>& parts, const ExrLayer& layer) {
+  const ExrPart& part = parts[size_t(layer.part)];
+  return names_no_light(behind_dot(before_dot(layer.channels[0]))) || contains(part.whole_numbers, layer.channels[0]);
+}
+
+ExrLayer one_channel(int part, const std::string& channel) {
+  return {channel, LayerKind::grey, part, false, false, {channel, "", ""}, true};
+}
+
+/// A file's only channel beside alpha, or its alpha; part -1 where there are more.
+ExrLayer only_channel(const std::vector<ExrPart>& parts) {
+  ExrLayer only = one_channel(-1, {});
+  int count = 0, alphas = 0;
+  for (size_t p = 0; p < parts.size(); ++p)
+    for (const std::string& channel : parts[p].channels) {
+      if (parts[p].deep) continue;
+      const bool alpha = is_alpha(channel);
+      (alpha ? alphas : count) += 1;
+      if (!alpha || count == 0) only = one_channel(int(p), channel);
+    }
+  return count == 1 || (count == 0 && alphas == 1) ? only : one_channel(-1, {});
 }
 
 bool whole(const std::array<std::string, 3>& channels) {
@@ -98,7 +141,7 @@ int by_name(const std::vector<ExrPart>& parts, const std::string& wanted, std::v
   for (size_t p = 0; p < parts.size(); ++p)
     for (const std::string& channel : parts[p].channels)
       if (!parts[p].deep && lower(channel) == name) {
-        layers.push_back({channel, LayerKind::grey, int(p), false, false, {channel, "", ""}});
+        layers.push_back(one_channel(int(p), channel));
         return int(layers.size()) - 1;
       }
   return -1;
@@ -125,6 +168,7 @@ std::vector<ExrLayer> exr_layers(const std::vector<ExrPart>& parts) {
     } else if (!y.empty()) {
       layer.kind = !ry.empty() && !by.empty() ? LayerKind::chroma : LayerKind::grey;
       layer.channels[0] = y;
+      if (layer.kind == LayerKind::chroma) layer.channels = {y, ry, by};
     } else {
       continue;
     }
@@ -150,24 +194,61 @@ int choose_layer(const std::vector<ExrPart>& parts, const std::string& wanted, s
   for (const char* name : picture_names)
     if (const int i = first_one(layers, called(name)); i >= 0) return i;
   const auto coloured = [](const ExrLayer& l) { return l.kind == LayerKind::rgb; };
-  if (const int i = only_one(layers, coloured); i >= 0) {
+  if (const int i = only_one(layers, coloured); i >= 0 && !is_no_light(parts, layers[size_t(i)])) {
     layers[size_t(i)].guessed = true;
     return i;
   }
   if (first_one(layers, coloured) >= 0) return -1;
   for (const LayerKind kind : {LayerKind::xyz, LayerKind::chroma, LayerKind::grey})
     if (const int i = first_one(layers, plain(kind)); i >= 0) return i;
-  std::string channel;
-  int part = -1, count = 0;
-  for (size_t p = 0; p < parts.size(); ++p)
-    if (!parts[p].deep && !parts[p].channels.empty()) {
-      count += int(parts[p].channels.size());
-      part = int(p);
-      channel = parts[p].channels[0];
-    }
-  if (count != 1 || is_no_light(channel)) return -1;
-  layers.push_back({channel, LayerKind::grey, part, false, false, {channel, "", ""}});
+  const auto chroma = [&](const ExrLayer& l) { return l.kind == LayerKind::chroma && !is_no_light(parts, l); };
+  if (const int i = only_one(layers, chroma); i >= 0) {
+    layers[size_t(i)].guessed = true;
+    return i;
+  }
+  ExrLayer only = only_channel(parts);
+  if (only.part < 0 || is_no_light(parts[size_t(only.part)], only.name)) return -1;
+  const std::string word = lower(behind_dot(only.name));
+  only.guessed = word != "y" && word != "l" && word != "luminance" && word != "grey" && word != "gray";
+  layers.push_back(only);
   return int(layers.size()) - 1;
+}
+
+int choose_number(const std::vector<ExrPart>& parts, const std::string& wanted, std::vector<ExrLayer>& layers) {
+  ExrLayer only = only_channel(parts);
+  if (wanted.empty() && only.part >= 0) {
+    layers.push_back(only);
+    return int(layers.size()) - 1;
+  }
+  const int chosen = choose_layer(parts, wanted, layers);
+  if (chosen >= 0) {
+    ExrLayer& layer = layers[size_t(chosen)];
+    if (layer.kind == LayerKind::xyz) return -1;
+    layer.kind = LayerKind::grey;
+    layer.channels = {layer.channels[0], "", ""};
+    return chosen;
+  }
+  for (size_t p = 0; wanted.empty() && p < parts.size(); ++p)
+    if (!parts[p].deep && contains(parts[p].channels, "R")) {
+      layers.push_back({"R", LayerKind::grey, int(p), true, true, {"R", "", ""}, false});
+      return int(layers.size()) - 1;
+    }
+  return -1;
+}
+
+std::string alpha_of(const std::vector<ExrPart>& parts, const ExrLayer& layer) {
+  for (const std::string& channel : parts[size_t(layer.part)].channels)
+    if (channel != layer.channels[0] && is_alpha(channel) && before_dot(channel) == before_dot(layer.channels[0]))
+      return channel;
+  return {};
+}
+
+std::string guess_text(const ExrLayer& layer, const char* what) {
+  if (layer.kind == LayerKind::grey)
+    return fmt::format("{} {:.80} is taken as {}, in grey, though its name does not say what it is",
+                       layer.alone ? "only channel" : "channel", layer.name, what);
+  return fmt::format("layer {:.80} is taken as {}, {}", layer.name, what,
+                     layer.plain ? "the first with colours" : "the only one with colours");
 }
 
 std::string layers_text(const std::vector<ExrPart>& parts) {

@@ -7,9 +7,12 @@
 
 #include "base/error.h"
 #include "base/file_identity.h"
+#include "base/memory.h"
 #include "image/exr_header.h"
 #include "image/oiio/functions.h"
+#include "image/picture_file.h"
 #include "image/plain_exr.h"
+#include "image/png_chunks.h"
 #include "image/radiance.h"
 
 namespace sateen {
@@ -65,16 +68,21 @@ Image read_radiance(const fs::path& path, const ImageLimits& limits, ImageFileIn
 }  // namespace
 
 ImageFileInfo read_image_info(const fs::path& path) {
+  check_picture_file(path);
   check_exr_header(path);
   return image_file_functions().read_info(path);
 }
 
 Image read_image(const fs::path& path, const ImageLimits& limits, ImageFileInfo* info) {
   note_file_read(path);
-  check_exr_header(path);
-  if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
-  if (is_radiance(path)) return read_radiance(path, limits, info);
-  return image_file_functions().read_pixels(path, limits, info);
+  check_picture_file(path);
+  return name_where_memory_ends(path, [&] {
+    check_exr_header(path);
+    if (std::optional<Image> plain = read_plain_exr(path, limits, info)) return std::move(*plain);
+    if (is_radiance(path)) return read_radiance(path, limits, info);
+    check_png_chunks(path);
+    return image_file_functions().read_pixels(path, limits, info);
+  });
 }
 
 void load_display_writer() {
@@ -82,10 +90,17 @@ void load_display_writer() {
 }
 
 bool image_decodes(const fs::path& path) {
+  check_picture_file(path);
+  try {
+    check_png_chunks(path);
+  } catch (const InputError&) {
+    return false;
+  }
   return image_file_functions().decodes(path);
 }
 
 Attributes read_attributes(const fs::path& path) {
+  check_picture_file(path);
   return image_file_functions().read_texts(path);
 }
 

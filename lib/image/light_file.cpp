@@ -9,8 +9,11 @@
 #include "base/file_identity.h"
 #include "image/exr_header.h"
 #include "image/exr_light.h"
+#include "image/exr_picture.h"
 #include "image/file.h"
 #include "image/oiio/functions.h"
+#include "image/picture_file.h"
+#include "image/png_chunks.h"
 #include "image/radiance.h"
 
 namespace sateen {
@@ -68,6 +71,7 @@ std::string first_bytes(const fs::path& path, size_t count) {
 std::unique_ptr<LightFile> open_light_file(const fs::path& path, const std::string& layer,
                                            const ImageLimits& limits) {
   note_file_read(path);
+  check_picture_file(path);
   if (is_exr_file(path)) {
     check_exr_header(path);
     return open_exr_light(path, layer, limits);
@@ -76,6 +80,7 @@ std::unique_ptr<LightFile> open_light_file(const fs::path& path, const std::stri
     refuse_picture(path, fmt::format("has no layers, and \"{:.60}\" was asked for", layer),
                    "--env-layer is for OpenEXR files");
   if (is_radiance(path)) return open_radiance(path, limits);
+  check_png_chunks(path);
   return std::make_unique<WholeLight>(path, limits);
 }
 

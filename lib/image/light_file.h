@@ -17,6 +17,8 @@ struct LightFileInfo {
   std::string pixel_type;     ///< "half", "float", "uint8" ...
   std::string color_space;    ///< as the file states it; empty where it does not
   std::optional<ColorManager::Chromaticities> chromaticities;
+  int first_row = 0;                ///< rows above this one are black, and
+  int end_row = 1 << 30;            ///< from this one on
   bool xyz = false;                 ///< the numbers are CIE XYZ, D65 being white
   bool whole = false;               ///< held in memory as a whole: reading a band of it saves nothing
   std::vector<std::string> notes;   ///< what was chosen or done beyond the usual, a sentence each without full stop

@@ -10,6 +10,9 @@ struct ImageLimits {
   long long decoded_bytes = 2ll << 30;  ///< as float: a map of 16384 x 8192 takes 1.5 GiB
 };
 
+/// What is read a band of rows at a time: what becomes of them is the caller's to limit.
+inline constexpr ImageLimits read_in_bands{1000000, 1ll << 62};
+
 /// The flag of the program that raises the limits, as messages name it.
 inline constexpr const char* image_limit_flag = "--image-limit";
 

@@ -187,9 +187,7 @@ std::unique_ptr<LightFile> open_radiance(const fs::path& path, const ImageLimits
   // What a line needs is allocated by the claim: it is held against the limits first.
   const int width = header.columns ? header.scanlines : header.length;
   const int height = header.columns ? header.length : header.scanlines;
-  ImageLimits sides = limits;
-  sides.decoded_bytes = 1ll << 62;
-  check_image_size(path, "data window", width, height, 3, sides);
+  check_image_size(path, "data window", width, height, 3, read_in_bands);
   return std::make_unique<RadianceFile>(path, header, limits);
 }
 

@@ -132,6 +132,8 @@ std::string texture_schema(bool color) {
       "\"additionalProperties\": false, \"required\": [\"texture\"{}], \"properties\": {{"
       "\"texture\": {{\"description\": \"Path from this file's folder; <UDIM> stands for 1001, 1002 ...\", "
       "\"type\": \"string\", \"minLength\": 1}}, {}{}"
+      "\"layer\": {{\"description\": \"Layer, or one channel, of an OpenEXR file\", \"type\": \"string\", "
+      "\"minLength\": 1}}, "
       "\"scale\": {{\"type\": \"number\", \"default\": 1}}, \"offset\": {{\"type\": \"number\", \"default\": 0}}, "
       "\"repeat\": {{\"description\": \"How often over one unit of u and of v\", \"type\": \"array\", "
       "\"minItems\": 2, \"maxItems\": 2, \"items\": {{\"type\": \"number\", \"minimum\": 0.001, \"maximum\": "

@@ -97,6 +97,8 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
       reader.fault(item.key_place,
                    fmt::format("the texture of {} has a space, but numbers are taken as they are", name),
                    "drop it, and scale with \"scale\" and \"offset\"");
+    } else if (item.key == "layer") {
+      reader.text(texture.layer, item, "the name of a layer of an OpenEXR file");
     } else if (item.key == "scale") {
       reader.number(texture.scale, item, -most, most, "scale");
     } else if (item.key == "offset") {
@@ -119,9 +121,9 @@ bool read_texture(TextureValue& to, const Field& field, const JsonValue& value, 
     } else if (item.key == "under" || (family_color && item.key == (field.key == "A" ? "under_color" : "under_A"))) {
       continue;  // a value like any other, which set_field() reads
     } else {
-      reader.fault(
-          item.key_place, fmt::format("unknown key {} in the texture of {}", shown_name(item.key), name),
-          suggestion(item.key, {"texture", "space", "scale", "offset", "repeat", "repeat_cm", "wrap", "under"}));
+      reader.fault(item.key_place, fmt::format("unknown key {} in the texture of {}", shown_name(item.key), name),
+                   suggestion(item.key, {"texture", "space", "layer", "scale", "offset", "repeat", "repeat_cm",
+                                         "wrap", "under"}));
     }
   }
   if (color && texture.space.empty() && reader.good)

@@ -20,6 +20,7 @@ constexpr std::uint64_t most_bytes = 4ull << 30;
 std::string settings_text(const TextureValue& t) {
   std::string text;
   if (!t.space.empty()) text += fmt::format(", \"space\": {}", json_quote(t.space));
+  if (!t.layer.empty()) text += fmt::format(", \"layer\": {}", json_quote(t.layer));
   if (t.scale != 1) text += fmt::format(", \"scale\": {}", t.scale + 0.0f);
   if (t.offset != 0) text += fmt::format(", \"offset\": {}", t.offset);
   if (t.repeat != std::array<float, 2>{1, 1}) text += fmt::format(", \"repeat\": [{}, {}]", t.repeat[0], t.repeat[1]);

@@ -11,12 +11,14 @@ namespace sateen {
 /// A texture that stands in place of a value of a look:
 ///     {"texture": "print.png", "space": "srgb_texture", "repeat_cm": [12, 12]}
 /// The value at a point is pixel * scale + offset, after a colour's pixels have been brought from `space` into the
-/// working space; numbers are the pixels' first channel. Where the picture has an alpha below 1, the value that the
+/// working space; numbers are the pixels' first channel; which layer of an
+/// OpenEXR file that is, `layer` says. Where the picture has an alpha below 1, the value that the
 /// field has without the texture shows through. `<UDIM>` in the path stands for 1001 + u + 10 v: one file for each
 /// unit square of the UVs.
 struct TextureValue {
   std::string path;   ///< absolute
   std::string space;  ///< of a colour's pixels, never empty; of numbers: empty
+  std::string layer;  ///< of an OpenEXR file; empty: chosen (image/exr_layers.h)
   float scale = 1, offset = 0;
   std::array<float, 2> repeat{1, 1};  ///< how often it is repeated over one unit of u and of v, 0.001 to 10000
   /// Size of one repeat along u and v on the cloth [centimetres], 0.001 to 100000; 0, 0: `repeat` says it.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/files.h"
+#include "base/memory.h"
 #include "base/text_encoding.h"
 #include "mesh/check_cage.h"
 #include "mesh/cut_polygon.h"
@@ -384,9 +385,11 @@ ControlMesh parse_obj(std::string_view text, const std::string& name) {
 
 ControlMesh read_obj(const std::filesystem::path& path) {
   constexpr std::uint64_t limit = std::uint64_t(16) << 30;
-  std::string text = read_text_file(path, limit);
-  obj::end_lines_at_returns(text);  // here, lest parse_obj holds the text twice
-  return parse_obj(text, path.string());
+  return name_where_memory_ends(path, [&] {
+    std::string text = read_text_file(path, limit);
+    obj::end_lines_at_returns(text);  // here, lest parse_obj holds the text twice
+    return parse_obj(text, path.string());
+  });
 }
 
 }  // namespace sateen

@@ -41,6 +41,25 @@ DisplaySettings settle_display(DisplaySettings settings, const ColorManager& col
   return settings;
 }
 
+std::string display_fault(const DisplaySettings& settled, const ColorManager& colors) {
+  Image greys(11, 1, 3);
+  for (int x = 0; x < greys.width; ++x) std::fill_n(greys.at(x, 0), 3, std::exp2(float(x - 10)));
+  colors.to_display(greys, settled.display, settled.view, 0);
+  constexpr const char* names[] = {"red", "green", "blue"};
+  std::string same;
+  for (int c = 0; c < 3; ++c) {
+    const float first = greys.at(0, 0)[c];
+    bool constant = true;
+    for (int x = 1; x < greys.width; ++x) constant = constant && greys.at(x, 0)[c] == first;
+    if (constant) same += fmt::format("{}{} {:.3g}", same.empty() ? "" : ", ", names[c], first);
+  }
+  if (same.empty()) return {};
+  return fmt::format(
+      "the view {} of the display {} gives every grey from dark to white the same code ({}): its "
+      "transform is faulty, or is not meant for pictures; an EXR does not go through it",
+      settled.view, settled.display, same);
+}
+
 float paper_code(float x, float y) {
   // Tuned by eye on all shipped looks: dark enough for ivory to stand out, light enough for black to have an outline.
   constexpr float middle = 0.36f, corner = 0.17f;

@@ -23,6 +23,10 @@ struct DisplaySettings {
 /// make from the working space.
 DisplaySettings settle_display(DisplaySettings settings, const ColorManager& colors);
 
+/// What of a view is surely not meant: a channel that is the same for every grey from dark to white, as a matrix of
+/// zeros, of enormous numbers or of none makes it. Empty where nothing is.
+std::string display_fault(const DisplaySettings& settled, const ColorManager& colors);
+
 /// Code values of the photographer's paper behind the cloth, grey, the same on every display: light falls off from a
 /// pool behind the object towards the corners. x and y in [0, 1] from the top left.
 float paper_code(float x, float y);

@@ -48,6 +48,9 @@ struct MapReader {
         warnings.push_back(fmt::format("{}: {} of the {} pixels of the texture of {} {}", value.origin, count,
                                        counts.pixels, path, text));
     };
+    for (const std::string& doubt : counts.doubts)
+      warnings.push_back(
+          fmt::format("{}: the texture of {}: {}; \"layer\" beside it takes another", value.origin, path, doubt));
     warn(counts.not_finite, "are not finite and count as 0");
     warn(counts.clamped, "are out of range: " + what);
     if (counts.transparent == counts.pixels)

@@ -16,7 +16,7 @@ struct EnvironmentRepairs {
     int first_x = -1, first_y = -1;
   };
   Kind not_a_number;  ///< made 0
-  Kind infinite;      ///< +Inf, or beyond 1e35 after exposure: made the map's largest finite value; -Inf made 0
+  Kind infinite;      ///< +Inf: made the map's largest finite value, 65504 where it has none; -Inf made 0
   Kind negative;      ///< in the file and in the working space too: made 0 there
   Kind out_of_gamut;  ///< became negative by conversion to the working space: made 0 there
   Kind wide;          ///< NOT changed: negative in the file, but a colour of the working space

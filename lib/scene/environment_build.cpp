@@ -94,6 +94,13 @@ Color scaled_radiance(const float* rgb, float gain, int x, int y, EnvironmentRep
   return c;
 }
 
+void tell_held(Environment& e, const EnvironmentRepairs::Kind& held) {
+  if (held.count > 0)
+    e.doubts.push_back(
+        fmt::format("{} pixel{} finite and above {:g}, brighter than any light: held there, first at {} {}",
+                    held.count, held.count == 1 ? "" : "s", brightest, held.first_x, held.first_y));
+}
+
 void set_radiance(Environment& e, int x, int y, const Color& radiance) {
   const size_t i = size_t(y) * size_t(e.width) + size_t(x);
   if (e.texels.empty())
@@ -157,10 +164,11 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
   mender.mend_in_working_space(map, 0);
   e.repairs = mender.repairs();
   const float gain = std::exp2(options.exposure_ev);
+  EnvironmentRepairs::Kind held;
   for (int y = 0; y < e.height; ++y)
-    for (int x = 0; x < e.width; ++x)
-      set_radiance(e, x, y, scaled_radiance(map.at(x, y), gain, x, y, e.repairs.infinite));
+    for (int x = 0; x < e.width; ++x) set_radiance(e, x, y, scaled_radiance(map.at(x, y), gain, x, y, held));
   finish_environment(e);
+  tell_held(e, held);
   return e;
 }
 

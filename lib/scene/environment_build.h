@@ -14,6 +14,9 @@ void set_radiance(Environment& environment, int x, int y, const Color& radiance)
 /// Mean, distributions and densities, once all radiance is set.
 void finish_environment(Environment& environment);
 
+/// What was held at 1e35 becomes one of the map's doubts.
+void tell_held(Environment& environment, const EnvironmentRepairs::Kind& held);
+
 /// Adds one pixel to a kind of repair.
 inline void count_repair(EnvironmentRepairs::Kind& kind, int x, int y) {
   if (kind.count++ > 0) return;

@@ -9,10 +9,12 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/memory.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
 #include "image/chromaticities.h"
 #include "image/light_file.h"
+#include "image/space_names.h"
 #include "scene/environment_build.h"
 #include "scene/environment_repair.h"
 #include "scene/environment_rows.h"
@@ -65,6 +67,14 @@ void xyz_to_working(Image& map, const LightFileInfo& info, const ColorManager& c
   colors.chromaticities_to_working(map, rgb);
 }
 
+// The file's word for its colours, where it has one that counts and nobody knows it.
+std::string unknown_space(const LightFileInfo& info, const ColorManager& colors, const std::string& flag) {
+  const std::string& name = info.color_space;
+  if (!flag.empty() || info.xyz || info.chromaticities || name.empty() || says_nothing(name)) return {};
+  if (name == "sRGB" || colors.has_space(name) || !own_space_called(name).empty()) return {};
+  return fmt::format("the file says that its colour space is {:.60}, which is not known", name);
+}
+
 // Converts in place and says what was used and why.
 std::string convert(Image& map, const fs::path& path, const LightFileInfo& info, const ColorManager& colors,
                     const std::string& flag) {
@@ -91,6 +101,8 @@ std::string convert(Image& map, const fs::path& path, const LightFileInfo& info,
     return by_name("srgb_texture", integer ? "the file says sRGB" : "the file's metadata");
   if (!info.color_space.empty() && colors.has_space(info.color_space))
     return by_name(info.color_space, "the file's metadata");
+  if (const std::string own = own_space_called(info.color_space); !own.empty())
+    return by_name(own, fmt::format("the file says {:.60}", info.color_space).c_str());
   if (const auto rule = colors.space_of_file(path.string()))
     return by_name(*rule, "a file rule of the colour config");
   return integer ? by_name("srgb_texture", "usual for integer pixels")
@@ -149,11 +161,19 @@ fs::path find_environment(const std::string& name) {
                    suggestion(fs::path(name).stem().string(), environment_names()), InputError::Kind::unreadable);
 }
 
-Environment read_environment(const std::string& path_or_name, const ColorManager& colors,
-                             const EnvironmentFileOptions& options, std::string* used_space) {
-  // Lossy EXRs are decoded in floating point: whoever calls, denormals are flushed as everywhere.
-  flush_denormals();
-  const fs::path path = find_environment(path_or_name);
+namespace {
+void check_memory(const fs::path& path, int width, int height) {
+  const double bytes = double(width) * height * double(sizeof(Color));
+  const MemoryRoom room = memory_room();
+  if (bytes > double(room.bytes))
+    refuse_picture(path,
+                   fmt::format("its picture of {} x {} pixels takes more than {}, and {}", width, height,
+                               memory_text(std::int64_t(bytes)), room.limit),
+                   "--map-size N makes it smaller while it is read");
+}
+
+Environment read_found(const fs::path& path, const ColorManager& colors, const EnvironmentFileOptions& options,
+                       std::string* used_space) {
   const std::unique_ptr<LightFile> file = open_light_file(path, options.layer, options.limits);
   const LightFileInfo& info = file->info;
   int width = info.width, height = info.height;
@@ -162,6 +182,7 @@ Environment read_environment(const std::string& path_or_name, const ColorManager
     width = options.width;
   }
   check_image_size(path, "picture", width, height, 3, options.limits, " (--map-size N does while it is read)");
+  check_memory(path, width, height);
 
   EnvironmentOptions build;
   build.rotation = radians(options.rotation_deg);
@@ -173,14 +194,22 @@ Environment read_environment(const std::string& path_or_name, const ColorManager
   RadianceMender mender(info.height);
   EnvironmentRows rows(info.width, info.height, environment);
   EnvironmentRepairs::Kind held;
-  std::string space;
   const float gain = std::exp2(options.exposure_ev);
+  Image black(1, 1, 3);
+  std::string space = convert(black, path, info, colors, options.color_space);
+  EnvironmentRepairs::Kind none;
+  const bool stays_black = scaled_radiance(black.at(0, 0), gain, 0, 0, none) == Color(0);
   const int band_rows = std::max(1, band_pixels / info.width);
   std::vector<Color> row(size_t(info.width), Color(0));
   do {
     held = {};
     for (int y = 0; y < info.height; y += band_rows) {
-      Image band(info.width, std::min(band_rows, info.height - y), 3);
+      const int count = std::min(band_rows, info.height - y);
+      if (stays_black && (y + count <= info.first_row || y >= info.end_row)) {
+        for (int k = 0; k < count; ++k) rows.add_black(y + k);
+        continue;
+      }
+      Image band(info.width, count, 3);
       file->read_rows(y, band.height, band.pixels.data());
       mender.mend_in_file_space(band, y);
       space = convert(band, path, info, colors, options.color_space);
@@ -195,8 +224,20 @@ Environment read_environment(const std::string& path_or_name, const ColorManager
   if (used_space) *used_space = space;
   finish_environment(environment);
   environment.repairs = mender.repairs();
-  if (!environment.repairs.infinite.count) environment.repairs.infinite = held;
+  // What was infinite is as bright as what is held, and told already.
+  if (!environment.repairs.infinite.count) tell_held(environment, held);
+  if (const std::string doubt = unknown_space(info, colors, options.color_space); !doubt.empty())
+    environment.doubts.push_back(fmt::format("{}; taken as {}; --env-space NAME says what it is", doubt, space));
   return environment;
+}
+}  // namespace
+
+Environment read_environment(const std::string& path_or_name, const ColorManager& colors,
+                             const EnvironmentFileOptions& options, std::string* used_space) {
+  // Lossy EXRs are decoded in floating point: whoever calls, denormals are flushed as everywhere.
+  flush_denormals();
+  const fs::path path = find_environment(path_or_name);
+  return name_where_memory_ends(path, [&] { return read_found(path, colors, options, used_space); });
 }
 
 }  // namespace sateen

@@ -132,7 +132,7 @@ std::vector<std::string> repair_texts(const EnvironmentRepairs& repairs) {
                                   kind.first_x, kind.first_y));
   };
   add(repairs.not_a_number, "not a number: made 0");
-  add(repairs.infinite, "infinite: made the map's largest finite value");
+  add(repairs.infinite, "infinite: made the map's largest finite value, or 65504 where it has none");
   add(repairs.negative,
       "negative in the working space as in the file: made 0 there, which makes their colours paler");
   add(repairs.out_of_gamut,

@@ -6,22 +6,12 @@
 
 namespace sateen {
 
-void EnvironmentRows::add(int y, const std::vector<Color>& row) {
-  if (to_.width == width_ && to_.height == height_) {
-    for (int x = 0; x < width_; ++x) set_radiance(to_, x, y, row[size_t(x)]);
-    return;
-  }
+void EnvironmentRows::begin(int y) {
   if (y == 0) next_ = 0;
-  const auto first = [](int i, int from, int to) { return int(std::int64_t(i) * from / to); };
   if (y == first(next_, height_, to_.height)) sums_.assign(4 * size_t(to_.width), 0);
-  const double weight = environment_row_weight(y, height_);
-  for (int x = 0; x < to_.width; ++x) {
-    double* sum = &sums_[4 * size_t(x)];
-    for (int u = first(x, width_, to_.width); u < first(x + 1, width_, to_.width); ++u) {
-      for (int i = 0; i < 3; ++i) sum[i] += weight * double(row[size_t(u)][i]);
-      sum[3] += weight;
-    }
-  }
+}
+
+void EnvironmentRows::finish(int y) {
   if (y + 1 < first(next_ + 1, height_, to_.height)) return;
   for (int x = 0; x < to_.width; ++x) {
     const double* sum = &sums_[4 * size_t(x)];
@@ -30,6 +20,35 @@ void EnvironmentRows::add(int y, const std::vector<Color>& row) {
     set_radiance(to_, x, next_, scaled_radiance(mean, 1, x, next_, none));
   }
   ++next_;
+}
+
+void EnvironmentRows::add(int y, const std::vector<Color>& row) {
+  if (is_as_it_is()) {
+    for (int x = 0; x < width_; ++x) set_radiance(to_, x, y, row[size_t(x)]);
+    return;
+  }
+  begin(y);
+  const double weight = environment_row_weight(y, height_);
+  for (int x = 0; x < to_.width; ++x) {
+    double* sum = &sums_[4 * size_t(x)];
+    for (int u = first(x, width_, to_.width); u < first(x + 1, width_, to_.width); ++u) {
+      for (int i = 0; i < 3; ++i) sum[i] += weight * double(row[size_t(u)][i]);
+      sum[3] += weight;
+    }
+  }
+  finish(y);
+}
+
+void EnvironmentRows::add_black(int y) {
+  if (is_as_it_is()) {
+    for (int x = 0; x < width_; ++x) set_radiance(to_, x, y, Color(0));
+    return;
+  }
+  begin(y);
+  const double weight = environment_row_weight(y, height_);
+  for (int x = 0; x < to_.width; ++x)
+    sums_[4 * size_t(x) + 3] += weight * (first(x + 1, width_, to_.width) - first(x, width_, to_.width));
+  finish(y);
 }
 
 }  // namespace sateen

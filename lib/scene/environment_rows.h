@@ -16,8 +16,14 @@ class EnvironmentRows {
 
   /// Rows 0, 1, 2 ... of the file, each of its width, scaled (scaled_radiance).
   void add(int y, const std::vector<Color>& row);
+  void add_black(int y);  ///< the same of a black row, at the cost of the map's width
 
  private:
+  bool is_as_it_is() const { return to_.width == width_ && to_.height == height_; }
+  int first(int i, int from, int to) const { return int(std::int64_t(i) * from / to); }
+  void begin(int y);
+  void finish(int y);
+
   int width_, height_;
   Environment& to_;
   int next_ = 0;              ///< row of the map that is being summed

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "image/alpha.h"
+#include "image/exr_picture.h"
+#include "image/exr_texture.h"
 #include "image/file.h"
 
 namespace sateen {
@@ -29,11 +33,35 @@ struct Picture {
   std::vector<float> alpha;  ///< empty: opaque
 };
 
+bool names_xyz(std::string space) {
+  for (char& c : space) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return space.find("xyz") != std::string::npos;
+}
+
+Image read_file(const std::filesystem::path& path, const TextureValue& value, bool is_color, ImageFileInfo& info,
+                PixelCounts& counts) {
+  if (!is_exr_file(path)) {
+    if (!value.layer.empty())
+      refuse_picture(path, fmt::format("has no layers, and \"{:.60}\" was asked for", value.layer),
+                     "\"layer\" is for OpenEXR files");
+    return read_image(path, image_limits(), &info);
+  }
+  ExrTexture texture = read_exr_texture(path, value.layer, !is_color);
+  if (texture.xyz && !names_xyz(value.space))
+    refuse_picture(path, fmt::format("holds CIE XYZ pixels, and its space is said to be {:.60}", value.space),
+                   "say \"space\": \"cie_xyz_d65\" where D65 is its white, or write it as R, G, B");
+  if (!texture.doubt.empty() &&
+      std::find(counts.doubts.begin(), counts.doubts.end(), texture.doubt) == counts.doubts.end())
+    counts.doubts.push_back(texture.doubt);
+  info = texture.info;
+  return std::move(texture.image);
+}
+
 /// The picture as colours or numbers, scaled, with whatever is not finite replaced by 0 and counted.
 Picture read_picture(const std::filesystem::path& path, const TextureValue& value, const ColorManager& colors,
                      bool is_color, PixelCounts& counts) {
   ImageFileInfo info;
-  Image file = read_image(path, image_limits(), &info);
+  Image file = read_file(path, value, is_color, info, counts);
   Picture picture;
   picture.alpha = take_alpha(file, info);
   const int channels = is_color ? 3 : 1;
@@ -134,7 +162,8 @@ UvTexture read_uv_texture(const TextureValue& value, const std::string& field, c
   const PixelCounts before = counts;
   try {
     for (const TextureFile& file : texture_files(value.path)) {
-      const Picture picture = read_picture(file.path, value, colors, use.is_color, counts);
+      const Picture picture = name_where_memory_ends(
+          file.path, [&] { return read_picture(file.path, value, colors, use.is_color, counts); });
       const TextureWrap wrap = texture.udim ? TextureWrap::clamp : value.wrap;
       const bool once = !texture.udim && wrap == TextureWrap::clamp && has_clear_border(picture);
       if (once) texture.under = use.under;

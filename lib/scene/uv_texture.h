@@ -38,9 +38,10 @@ struct PixelUse {
   std::array<float, 3> under{0, 0, 0};  ///< the values where the picture is transparent
 };
 
-/// How many pixels were not as they should be.
+/// How many pixels were not as they should be, and what was guessed of their files.
 struct PixelCounts {
   long long pixels = 0, clamped = 0, not_finite = 0, transparent = 0;
+  std::vector<std::string> doubts;
 };
 
 /// Reads the picture, or the tiles, of a look's texture. Colours are brought into the working space pixel by pixel,

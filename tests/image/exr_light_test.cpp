@@ -19,6 +19,7 @@
 #include "image/chromaticities.h"
 #include "image/file.h"
 #include "image/image.h"
+#include "image/made_exr.h"
 #include "image/made_files.h"
 #include "image/scratch_folder.h"
 
@@ -137,11 +138,24 @@ TEST(ExrLight, RefusesToGuessAmongLayersListsThemAndTakesTheOneAskedFor) {
   EXPECT_NE(read(path, "mist").error.find("has no layer \"mist\"; its layers are RenderLayer.AO"), std::string::npos);
   // Vectors are no light unless asked for.
   EXPECT_NE(read(write_parts(folder, {{"", {"N.X", "N.Y", "N.Z"}}})).error, "");
-  for (const char* alone : {"Z", "A", "depth", "View Layer.Depth.Z", "Mist.alpha"}) {
+  for (const char* alone : {"Z", "A", "depth", "View Layer.Depth.Z", "Mist.alpha", "mask", "matte.01", "AO", "ao.Y",
+                            "View Layer.IndexOB.X", "CryptoObject00.r", "objectID"}) {
     const fs::path matte = write_parts(folder, {{"", {alone}}});
     EXPECT_NE(read(matte).error.find("does not say which of its layers is the light"), std::string::npos) << alone;
     EXPECT_EQ(read(matte, alone).first(), Color(1, 1, 1));
   }
+  // Cryptomatte's names of objects look like colours.
+  const fs::path crypt = write_parts(folder, {{"", {"CryptoObject00.r", "CryptoObject00.g", "CryptoObject00.b"}}});
+  EXPECT_NE(read(crypt).error, "");
+  EXPECT_EQ(read(crypt, "cryptoobject00").first(), Color(1, 2, 3));
+  // So do integers that stand alone.
+  const fs::path ids = folder.path / "ids.exr";
+  write_made_exr(ids, {{{}, {{"thing", [](int, int) { return 7.0f; }, MadeType::uint}}}});
+  EXPECT_NE(read(ids).error, "");
+  EXPECT_EQ(read(ids, "thing").first(), Color(7, 7, 7));
+  // A name that says nothing is a guess.
+  EXPECT_NE(read(write_parts(folder, {{"", {"stuff"}}})).info.doubts.at(0).find("only channel stuff"),
+            std::string::npos);
   const fs::path hdr = folder.path / "a.hdr";
   write_bytes(hdr, "#?RADIANCE\n\n-Y 1 +X 1\nabcd");
   EXPECT_NE(read(hdr, "AO").error.find("has no layers"), std::string::npos);
@@ -164,6 +178,20 @@ TEST(ExrLight, PlacesTilesWindowsAndPartsInTheirPicture) {
         ASSERT_EQ(image.at(x, y)[1], inside ? float(y) : 0.0f);
       }
   }
+  // What is cut off is not black.
+  const auto told = [&](const MadeWindow& data, const MadeWindow& display) {
+    write_made_exr(path, {counted({"R", "G", "B"})}, data, display);
+    return open_light_file(path)->info.notes.at(0);
+  };
+  EXPECT_EQ(told({-4, -2, 16, 8}, {0, 0, 8, 4}),
+            "8 x 4 of its 16 x 8 pixels lie within the picture of 8 x 4: the overscan is cut off");
+  EXPECT_EQ(told({1, 1, 4, 2}, {0, 0, 8, 4}),
+            "all of its 4 x 2 pixels lie within the picture of 8 x 4: the rest is "
+            "black");
+  EXPECT_EQ(told({4, 2, 8, 4}, {0, 0, 8, 4}),
+            "4 x 2 of its 8 x 4 pixels lie within the picture of 8 x 4: the "
+            "overscan is cut off, and what has no pixels is black");
+  EXPECT_EQ(told({20, 2, 8, 4}, {0, 0, 8, 4}), "its 8 x 4 pixels lie outside of the picture of 8 x 4: it is black");
   for (const bool mipmapped : {false, true}) {
     write_tiled_exr(path, 50, 37, mipmapped);
     const Image image = read(path).image;
@@ -179,6 +207,9 @@ TEST(ExrLight, PlacesTilesWindowsAndPartsInTheirPicture) {
   for (size_t length = 5; length < bytes.size(); length += bytes.size() / 40) {
     write_bytes(path, bytes.substr(0, length));
     EXPECT_NE(read(path).error, "") << length;
+    if (length < 200) {
+      EXPECT_NE(read(path).error.find("cut short"), std::string::npos) << length << read(path).error;
+    }
   }
 }
 

@@ -200,7 +200,7 @@ TEST(Radiance, RefusesWhatIsDamagedByItsName) {
   expect(magic + format + "\n-Y 9 +Y 12\n", "without a resolution string");
   expect(magic + format + "\n-Y 99999999999 +X 12\n", "resolution string says 12 x 99999999999");
   expect(magic + format + "\n-Y -9 +X 12\n", "resolution string says 12 x -9");
-  expect(magic + format + "\n-Y 9 +X 40000\n", "expected at most 32768 a side");
+  expect(magic + format + "\n-Y 9 +X 2000000\n", "expected at most 1000000 a side");
   expect(magic + format + "\n+Y 30000 +X 30000\n", "takes 10.1 GiB decoded");  // held whole: before it is allocated
   expect(magic + format + "\n-Y 9 +X 13\n" + pixels, "is said to have 12 pixels instead of 13");
   expect(magic + format + "\n-Y 1 +X 3\n" + bytes_of({1, 1, 1, 3}), "begins with a repetition");

@@ -38,6 +38,22 @@ TEST(TextureValue, IsReadAndWrittenBackTheSame) {
   EXPECT_EQ(all_values(again), all_values(look));
 }
 
+TEST(TextureValue, NamesALayerOfItsFileWhichCountsInTheHash) {
+  use_source_tree();
+  const ScratchFolder folder;
+  folder.write("a.exr", "a");
+  const auto read = [&](const std::string& more) {
+    return parse_look("{\"warp\": {\"k_d\": {\"texture\": \"a.exr\"" + more + "}}}", folder.file("silk.json"));
+  };
+  const Look look = read(R"(, "layer": "wear.amount")");
+  EXPECT_EQ(look.textures.at("warp.k_d").layer, "wear.amount");
+  EXPECT_EQ(field_text(look, *find_field("warp.k_d")), R"({"texture": "a.exr", "layer": "wear.amount"})");
+  EXPECT_EQ(all_values(parse_look(write_look(look), folder.file("silk.json"))), all_values(look));
+  EXPECT_NE(look_hash(look), look_hash(read("")));
+  const std::string faulty = R"({"warp": {"k_d": {"texture": "a.exr", "layer": 3}}})";
+  EXPECT_NE(error_at(folder, faulty).find("layer of k_d is no text"), std::string::npos);
+}
+
 TEST(TextureValue, GivesWayToAValueAndTakesItsPlace) {
   use_source_tree();
   const ScratchFolder folder;

@@ -45,6 +45,56 @@ TEST(ClothMaps, GiveEveryFieldItsPixels) {
   EXPECT_TRUE(side.fabric.varying);
 }
 
+TEST(ClothMaps, TakeTheLayerThatIsNamedAndRefuseToGuess) {
+  const MappedLooks made;
+  const auto layer = [](const char* name, std::vector<std::string> channels, float value) {
+    Image image(4, 4, int(channels.size()));
+    std::fill(image.pixels.begin(), image.pixels.end(), value);
+    return ImageLayer{name, std::move(channels), false, image};
+  };
+  write_exr(
+      made.folder.path / "two.exr",
+      {layer("AO", {"R", "G", "B"}, 0.9f), layer("base", {"R", "G", "B"}, 0.3f), layer("wear", {"amount"}, 0.6f)}, {},
+      std::nullopt);
+  const auto text = [](const std::string& more) {
+    return R"({"warp": {"A": {"texture": "two.exr", "space": "lin_rec709")" + more +
+           R"(}, "k_d": {"texture": "two.exr", "layer": "wear.amount"}}})";
+  };
+  EXPECT_NE(made.error_in(text("")).find("does not say which of its layers is the colour: AO"), std::string::npos)
+      << made.error_in(text(""));
+  const CompiledSide side = made.compiled(text(R"(, "layer": "base")"), false);
+  ASSERT_TRUE(side.maps);
+  const PointValues values = values_at(side.maps->own, Vec2(0.5f, 0.5f), {});
+  EXPECT_NEAR(values.A[0][1], made.colors.to_working(Color(0.3f), "lin_rec709").y, 1e-3f);
+  EXPECT_FLOAT_EQ(values.family[0].k_d, 0.6f);
+  // The only layer with colours is a guess, and told.
+  write_exr(made.folder.path / "one.exr", {layer("base", {"R", "G", "B"}, 0.3f), layer("depth", {"Z"}, 4)}, {},
+            std::nullopt);
+  const CompiledSide guessed =
+      made.compiled(R"({"warp": {"A": {"texture": "one.exr", "space": "lin_rec709"}}})", false);
+  ASSERT_EQ(guessed.warnings.size(), 1u);
+  EXPECT_NE(guessed.warnings[0].find("its layer base is taken as the colour"), std::string::npos)
+      << guessed.warnings[0];
+}
+
+TEST(ClothMaps, TakeXyzAsXyzOrNotAtAll) {
+  const MappedLooks made;
+  Image xyz(4, 4, 3);
+  for (int i = 0; i < 16; ++i) {
+    xyz.pixels[size_t(i) * 3] = 0.95047f / 2;
+    xyz.pixels[size_t(i) * 3 + 1] = 0.5f;
+    xyz.pixels[size_t(i) * 3 + 2] = 1.08883f / 2;
+  }
+  write_exr(made.folder.path / "xyz.exr", {{"", {"X", "Y", "Z"}, false, xyz}}, {}, std::nullopt);
+  const auto text = [](const char* space) {
+    return fmt::format(R"({{"warp": {{"A": {{"texture": "xyz.exr", "space": "{}"}}}}}})", space);
+  };
+  EXPECT_NE(made.error_in(text("lin_rec709")).find("holds CIE XYZ pixels"), std::string::npos);
+  const CompiledSide side = made.compiled(text("cie_xyz_d65"), false);
+  ASSERT_TRUE(side.maps);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(values_at(side.maps->own, Vec2(0.5f, 0.5f), {}).A[0][c], 0.5f, 2e-3f);
+}
+
 TEST(ClothMaps, HaveASizeOnTheClothWhereTheyAreGivenOne) {
   const MappedLooks made;
   made.texture("halves.exr", 64, 64, [](int x, int) { return Color(x < 32 ? 0.25f : 0.75f); });

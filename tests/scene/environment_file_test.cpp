@@ -112,6 +112,39 @@ TEST(ReadEnvironment, TakesTheColourSpaceFromFlagThenChromaticitiesThenTheUsual)
   EXPECT_NEAR(read(png, "raw", space).y, 0.502f, 0.005f);
 }
 
+TEST(ReadEnvironment, KnowsTheNamesThatFilesGiveTheirColourSpaceOrSaysThatItDoesNot) {
+  const ScratchFolder folder;
+  const ColorManager colors("built-in");
+  const fs::path path = folder.path / "a.exr";
+  const Image map = make_map(4, 2, [](int, int) { return Color(0.1f, 0.2f, 0.3f); });
+  struct Case {
+    const char *attribute, *name, *used;
+    bool known = true;
+  };
+  for (const Case& c : {Case{"oiio:ColorSpace", "ACEScg", "ACEScg (the file's metadata)"},
+                        {"oiio:ColorSpace", "lin_ap1_scene", "acescg (the file says lin_ap1_scene)"},
+                        {"colorInteropID", "lin_ap1_scene", "acescg (the file says lin_ap1_scene)"},
+                        {"colorInteropID", "srgb_rec709_scene", "srgb_texture (the file says srgb_rec709_scene)"},
+                        {"oiio:ColorSpace", "ACES - ACES2065-1", "aces2065-1 (the file says ACES - ACES2065-1)"},
+                        {"oiio:ColorSpace", "Linear", "lin_rec709 (usual for float pixels)"},
+                        {"oiio:ColorSpace", "Rec709", "lin_rec709 (usual for float pixels)", false},
+                        {"colorInteropID", "lin_rec2020_scene", "lin_rec709 (usual for float pixels)", false}}) {
+    write_exr(path, {{"", {"R", "G", "B"}, false, map}}, {{c.attribute, std::string(c.name)}}, std::nullopt);
+    std::string used;
+    const Environment e = read_environment(path.string(), colors, {}, &used);
+    EXPECT_EQ(used, c.used);
+    EXPECT_EQ(e.doubts.empty(), c.known) << c.name;
+    if (!c.known && !e.doubts.empty()) {
+      EXPECT_NE(e.doubts[0].find(std::string(c.name) + ", which is not known; taken as lin_rec709"),
+                std::string::npos)
+          << e.doubts[0];
+    }
+    EnvironmentFileOptions asked;
+    asked.color_space = "acescg";
+    EXPECT_TRUE(read_environment(path.string(), colors, asked).doubts.empty());
+  }
+}
+
 TEST(ReadEnvironment, CountsOnlyWhatIsNegativeInTheWorkingSpaceAsOutOfGamut) {
   const ScratchFolder folder;
   const ColorManager colors("built-in", "lin_rec709");

@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/missing_file.h"
 #include "image/attributes.h"
 #include "image/bands.h"
 #include "image/dither.h"
@@ -41,12 +40,6 @@ std::string because(std::string text) {
 }
 
 Input open(const fs::path& path) {
-  std::error_code code;
-  const fs::file_status status = fs::status(path, code);
-  if (status.type() == fs::file_type::not_found) refuse(path, "no such file", missing_file_help(path));
-  if (status.type() == fs::file_type::directory) refuse(path, "is a folder, expected a picture");
-  if (status.type() != fs::file_type::regular) refuse(path, "is not a regular file");
-  if (fs::file_size(path, code) == 0) refuse(path, "is empty, expected a picture");
   // Else the library multiplies colours by alpha while they are still encoded.
   OIIO::ImageSpec as_stored;
   as_stored.attribute("oiio:UnassociatedAlpha", 1);
