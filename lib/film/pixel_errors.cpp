@@ -161,7 +161,8 @@ std::vector<PixelError> pixel_errors(const Film& film, const ErrorScale& scale) 
   for (const double backing : backings(film, scale)) {
     std::vector<PixelError> errors = errors_over(film, scale, backing);
     const double sum = sum_of(errors);
-    if (sum > most) most = sum, worst = std::move(errors);
+    // Of sums that are no numbers, as a checkpoint may hold them, the first will do.
+    if (worst.empty() || sum > most) most = sum, worst = std::move(errors);
   }
   return worst;
 }

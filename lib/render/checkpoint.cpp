@@ -188,13 +188,26 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
 }
 
 namespace {
+/// Sums of light that can be squared: a map's brightest texel is 1e35.
+bool is_sound(const FilmPixel& pixel) {
+  constexpr double most = 1e60;
+  for (size_t r = 0; r < size_t(replicates); ++r) {
+    const Vec3d& sum = pixel.beauty[r];
+    const double largest = std::max({std::abs(sum.x), std::abs(sum.y), std::abs(sum.z), std::abs(pixel.coverage[r])});
+    // A comparison that is false of what is no number.
+    if (!(largest < most && sum.x == sum.x && sum.y == sum.y && sum.z == sum.z)) return false;
+  }
+  return pixel.samples < (std::uint64_t(1) << 40);
+}
+
 /// Whether what was read fits together: counts, and numbers that something is divided by or indexed with.
 bool is_sound(const Checkpoint& c) {
   const size_t pixels = c.film.pixels.size();
   return c.film.width > 0 && c.film.height > 0 && pixels == size_t(c.film.width) * size_t(c.film.height) &&
          (c.film.layers.empty() || c.film.layers.size() == pixels) && c.course.targets.size() == pixels &&
          c.film.grain > 0 && std::isfinite(c.film.grain) && c.film.first_sample % replicates == 0 &&
-         c.course.samples >= 0 && c.course.barrier >= 0;
+         c.course.samples >= 0 && c.course.barrier >= 0 &&
+         std::all_of(c.film.pixels.begin(), c.film.pixels.end(), [](const FilmPixel& p) { return is_sound(p); });
 }
 }  // namespace
 
