@@ -68,14 +68,14 @@ void describe(Command& c, StudyFlags& f) {
       "--time", "T", continues_duration,
       [&s](const std::string& text) { s.cpu_seconds = read_duration("--time", text); },
       "CPU time that the whole may take, about: 10m, 2h (default: 1h)");
-  c.flag("--quick", f.quick, "a minute: satin alone, three lights, smaller renders");
+  c.flag("--quick", f.quick, "a minute or two: satin alone, three lights, smaller renders");
   c.flag("--pictures", s.pictures, "pictures to compare (default)");
   add_approximation_flags(c, s.scene.approximations);
   c.integer("-t,--threads", "N", s.threads, 0, 4096, "0: all that this process may use (default)");
   c.group("Output");
   c.text("-o,--output", "FOLDER", f.folder, fmt::format("where all of it goes (default: {})", f.folder));
   c.flag("-q,--quiet", f.quiet, "warnings and errors only");
-  c.example("sateen study --quick -o out/study", "a minute, to see what it gives");
+  c.example("sateen study --quick -o out/study", "a minute or two, to see what it gives");
   c.example("sateen study -o out/study", "the whole, about an hour of one core; open out/study/index.html");
   c.example("sateen study --looks my_satin.json --envs white,studio.hdr --mesh dress.obj --time 5m",
             "your own look, form and light");

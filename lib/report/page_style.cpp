@@ -23,11 +23,14 @@ figure > img { display: block; width: 100%; border-radius: 6px; border: 1px soli
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; background: var(--card);
   border: 1px solid var(--line); border-radius: 6px; }
 th, td { padding: 5px 9px; text-align: left; border-bottom: 1px solid var(--line); }
-th { font-weight: 600; color: var(--quiet); }
+th { font-weight: 600; color: var(--quiet); vertical-align: bottom; }
 tr:last-child td { border-bottom: 0; }
-td.number, th.number { text-align: right; white-space: nowrap; }
-td.pass { color: var(--good); font-weight: 700; }
-td.missed { color: var(--bad); font-weight: 700; }
+td.number, th.number { text-align: right; }
+td.number { white-space: nowrap; }
+td:not(.number) { min-width: 13ch; }
+td:empty { min-width: 0; }
+td.holds { color: var(--good); font-weight: 700; }
+td.fails { color: var(--bad); font-weight: 700; }
 .slider { position: relative; margin: 0; overflow: hidden; border-radius: 6px; border: 1px solid var(--line);
   cursor: ew-resize; touch-action: pan-y; user-select: none; max-width: 100%; }
 .slider img { display: block; width: 100%; height: auto; pointer-events: none; }

@@ -77,7 +77,8 @@ std::string table_html(const Table& table) {
     text += "<tr>";
     for (size_t i = 0; i < row.size(); ++i) {
       std::string kind = i < right.size() && right[i] ? "number" : "";
-      if (row[i] == "PASS" || row[i] == "MISSED") kind = row[i] == "PASS" ? "pass" : "missed";
+      if (row[i] == "holds") kind = "holds";
+      if (row[i] == "does not hold") kind = "fails";
       text += (kind.empty() ? "<td>" : "<td class=\"" + kind + "\">") + html_text(row[i]) + "</td>";
     }
     text += "</tr>\n";

@@ -33,9 +33,12 @@ Table run_table(const StudyResult& result) {
 Table goal_table(const StudyResult& result) {
   Table table{{"squared error of the first over that of the second", "should be at most", "is (95 % interval)", ""},
               {}};
-  for (const Bar& bar : study_bars(result))
+  for (const Bar& bar : study_bars(result)) {
+    const bool open = bar.found.low < bar.limit && bar.limit < bar.found.high;
     table.rows.push_back(
-        {bar.what, number_text(bar.limit), interval_text(bar.found), bar.passed ? "holds" : "does not hold"});
+        {bar.what, number_text(bar.limit), interval_text(bar.found),
+         fmt::format("{}{}", bar.passed ? "holds" : "does not hold", open ? ", perhaps by chance" : "")});
+  }
   return table;
 }
 

@@ -29,11 +29,11 @@ TEST(Table, CsvQuotesWhatWouldBreakIt) {
 }
 
 TEST(Table, HtmlEscapesAndMarksWhatPassed) {
-  const std::string html = table_html({{"<bar>", "found"}, {{"a & b", "PASS"}, {"c", "MISSED"}}});
+  const std::string html = table_html({{"<bar>", "found"}, {{"a & b", "holds"}, {"c", "does not hold"}}});
   EXPECT_NE(html.find("<th>&lt;bar&gt;</th>"), std::string::npos) << html;
   EXPECT_NE(html.find("<td>a &amp; b</td>"), std::string::npos);
-  EXPECT_NE(html.find("<td class=\"pass\">PASS</td>"), std::string::npos);
-  EXPECT_NE(html.find("<td class=\"missed\">MISSED</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td class=\"holds\">holds</td>"), std::string::npos);
+  EXPECT_NE(html.find("<td class=\"fails\">does not hold</td>"), std::string::npos);
 }
 
 TEST(Table, NumbersThatAreNotFiniteAreADash) {

@@ -133,6 +133,17 @@ TEST(StudyAnalysis, BarsAreGeometricMeansAndFailWhereTheyMust) {
   EXPECT_EQ(table.rows[2].back(), "holds");
 }
 
+TEST(StudyAnalysis, AVerdictSaysWhereItsIntervalAllowsTheOther) {
+  std::vector<Law> laws = plain;
+  StudyResult study = made_study(laws, {"white", "overcast"});
+  const Bar bar = study_bars(study)[0];
+  EXPECT_GT(bar.found.value, bar.limit);
+  for (StudyRun& run : study.runs)  // two seeds that disagree by far
+    if (run.strategy == Strategy::uniform) run.mse.relative *= run.seed % 2 ? 8 : 0.125;
+  const std::string verdict = goal_table(study).rows[0].back();
+  EXPECT_NE(verdict.find(", perhaps by chance"), std::string::npos) << verdict;
+}
+
 TEST(StudyAnalysis, ScenesThatAreNotFinishedDoNotCount) {
   StudyResult study = made_study(plain, {"white", "overcast"});
   study.scenes[1].finished = false;
