@@ -36,7 +36,6 @@ std::vector<Primvar<V>> refined(const std::vector<V>& base, int levels, const St
 
 struct Limits {
   std::vector<Point> positions, tangents, others;
-  std::vector<Coordinate> uvs;
 };
 
 Limits limits(const Far::TopologyRefiner& refiner, const ControlPoints& points, int level) {
@@ -53,14 +52,51 @@ Limits limits(const Far::TopologyRefiner& refiner, const ControlPoints& points, 
   out.tangents.resize(vertices);
   out.others.resize(vertices);
   primvars.Limit(positions, out.positions, out.tangents, out.others);
-  if (points.uvs.empty()) return out;
+  return out;
+}
+
+/// Texture coordinates at the limit, by value, and the value of every corner of every face in the order of `level`.
+struct LimitUvs {
+  std::vector<Coordinate> by_value;
+  std::vector<int> of_corner;
+};
+
+std::vector<Coordinate> limit_uvs(const Far::TopologyRefiner& refiner, const ControlPoints& points, int level) {
+  const Far::PrimvarRefiner primvars(refiner);
   const std::vector<Coordinate> uvs = refined(points.uvs, level, [&](int to, const std::vector<Coordinate>& from) {
     std::vector<Coordinate> next(size_t(refiner.GetLevel(to).GetNumFVarValues()));
     primvars.InterpolateFaceVarying(to, from, next);
     return next;
   });
-  out.uvs.resize(size_t(last.GetNumFVarValues()));
-  primvars.LimitFaceVarying(uvs, out.uvs);
+  std::vector<Coordinate> out(size_t(refiner.GetLevel(level).GetNumFVarValues()));
+  primvars.LimitFaceVarying(uvs, out);
+  return out;
+}
+
+/// Refines anew. Of the cage itself OpenSubdiv looks up a value's tag at the value's index, though tags are kept by
+/// vertex, and reads beyond them: there the limit is taken at the corners' children.
+LimitUvs uvs_at(Far::TopologyRefiner& refiner, const ControlPoints& points, int level) {
+  LimitUvs out;
+  const int fine = std::max(level, 1);
+  if (fine != level) {
+    refiner.Unrefine();
+    Far::TopologyRefiner::UniformOptions options(fine);
+    options.fullTopologyInLastLevel = true;
+    refiner.RefineUniform(options);
+  }
+  out.by_value = limit_uvs(refiner, points, fine);
+  const Far::TopologyLevel &faces = refiner.GetLevel(level), &last = refiner.GetLevel(fine);
+  for (int face = 0; face < faces.GetNumFaces(); ++face) {
+    const Far::ConstIndexArray vertices = faces.GetFaceVertices(face);
+    for (int k = 0; k < vertices.size(); ++k) {
+      int at = face, corner = k;
+      if (fine != level) {
+        at = faces.GetFaceChildFaces(face)[k];
+        corner = last.GetFaceVertices(at).FindIndex(faces.GetVertexChildVertex(vertices[k]));
+      }
+      out.of_corner.push_back(last.GetFaceFVarValues(at)[corner]);
+    }
+  }
   return out;
 }
 
@@ -90,19 +126,23 @@ Mesh uniformly_refined(Far::TopologyRefiner& refiner, const ControlPoints& point
   Far::TopologyRefiner::UniformOptions options(level);
   options.fullTopologyInLastLevel = true;  // the limit masks need it
   refiner.RefineUniform(options);
-  const Far::TopologyLevel& last = refiner.GetLevel(level);
   const Limits limit = limits(refiner, points, level);
+  const LimitUvs uvs = points.uvs.empty() ? LimitUvs() : uvs_at(refiner, points, level);
+  const Far::TopologyLevel& last = refiner.GetLevel(level);
 
   std::unordered_map<std::uint64_t, std::uint32_t> known;
   std::vector<std::pair<int, int>> vertices;  // refined vertex and UV value
   Mesh mesh;
   std::vector<std::uint32_t> corners;
+  size_t corner = 0;
   for (int face = 0; face < last.GetNumFaces(); ++face) {
-    if (last.IsFaceHole(face)) continue;
     const Far::ConstIndexArray face_vertices = last.GetFaceVertices(face);
+    const size_t first = corner;
+    corner += size_t(face_vertices.size());
+    if (last.IsFaceHole(face)) continue;
     corners.clear();
     for (int k = 0; k < face_vertices.size(); ++k) {
-      const int uv = points.uvs.empty() ? 0 : last.GetFaceFVarValues(face)[k];
+      const int uv = points.uvs.empty() ? 0 : uvs.of_corner[first + size_t(k)];
       const std::uint64_t key = std::uint64_t(face_vertices[k]) << 32 | std::uint32_t(uv);
       const auto [at, fresh] = known.try_emplace(key, std::uint32_t(vertices.size()));
       if (fresh) vertices.emplace_back(face_vertices[k], uv);
@@ -125,7 +165,7 @@ Mesh uniformly_refined(Far::TopologyRefiner& refiner, const ControlPoints& point
     const auto [vertex, uv] = vertices[i];
     SurfaceSample sample;
     sample.position = limit.positions[size_t(vertex)].value;
-    if (!points.uvs.empty()) sample.uv = limit.uvs[size_t(uv)].value;
+    if (!points.uvs.empty()) sample.uv = uvs.by_value[size_t(uv)].value;
     // Where several smooth pieces meet, one tangent plane would be as wrong as another: the mean of the pieces is
     // taken.
     if (!sharp[size_t(vertex)])

@@ -149,7 +149,7 @@ TEST(Subdivide, UniformRefinementAgreesWithTheFaceByFaceEvaluation) {
     with_pillow.position_indices.push_back(k);
     with_pillow.uv_indices.push_back(k - 56);
   }
-  for (int level = 1; level <= 4; ++level) {
+  for (int level = 0; level <= 4; ++level) {
     const Mesh one = subdivide(cage, level), other = subdivide(with_pillow, level);
     EXPECT_NE(one.positions.size(), other.positions.size());
     double position = 0, normal = 0, uv = 0, warp = 0;
@@ -164,8 +164,9 @@ TEST(Subdivide, UniformRefinementAgreesWithTheFaceByFaceEvaluation) {
       uv = std::max(uv, double((other.uvs[nearest] - one.uvs[i]).length()));
       warp = std::max(warp, double((other.dpdu[nearest] - one.dpdu[i]).length()));
     }
-    EXPECT_LT(position, 5e-6) << level;
     EXPECT_LT(uv, 1e-5) << level;
+    if (level == 0) continue;  // polygons have a point in their middle in one of the ways
+    EXPECT_LT(position, 5e-6) << level;
     if (level >= 3) {
       EXPECT_LT(warp, 0.2) << level << ": differences of first order on borders";
     }
