@@ -27,6 +27,7 @@ void add_scene(Command& c, PictureFlags& f) {
   std::string shapes;
   for (const std::string& shape : built_in_shapes()) shapes += (shapes.empty() ? "" : ", ") + shape;
   c.text("-m,--mesh", "NAME|FILE.obj", s.mesh, fmt::format("{}, or an OBJ (default: {})", shapes, s.mesh));
+  c.choice("--up", s.up, {"y", "z"}, "the mesh's own axis that points upwards (default: y)");
   c.flag("--weld", s.weld, "joins borders of the mesh that coincide, such as sewn seams that were exported apart");
   c.custom(
       "--level", "N|auto", 1, 1,

@@ -45,6 +45,12 @@ Placement wanted_placement(const ControlMesh& cage) {
   return cage.position_indices.empty() ? Placement{} : placement_in(box_of(cage));
 }
 
+void stand_up(ControlMesh& cage) {
+  for (Vec3& p : cage.positions) p = Vec3(p.x, p.z, -p.y);
+  Vec3d& origin = cage.placement.origin;
+  origin = Vec3d(origin.x, origin.z, -origin.y);
+}
+
 void settle_placement(ControlMesh& cage) {
   if (cage.position_indices.empty()) return;
   const Box box = box_of(cage);

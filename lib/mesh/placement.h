@@ -17,6 +17,9 @@ struct Placement {
   float held_length(double scene_length) const { return float(scene_length / unit); }
 };
 
+/// Turns a cage whose z points upwards so that its y does: what faced -y faces +z, the camera's side.
+void stand_up(ControlMesh& cage);
+
 /// Moves and scales the cage's positions, and says so in its placement. A cage of 2^-7 to 2^10 units (0.0078 to
 /// 1024) keeps its size, others get one of 1 to 2; one that lies 64 of its sizes from the origin is moved there. All
 /// other cages keep their bits. Vertices that no face uses are put into the middle of those that are used.

@@ -88,6 +88,7 @@ ControlMesh read_cage(const std::string& name) {
 Cloth build_cloth(const SceneSettings& settings, SceneReport& report) {
   const double start = now();
   ControlMesh cage = read_cage(settings.mesh);
+  if (settings.up == "z") stand_up(cage);
   if (settings.weld) {
     const Touching touching = weld_borders(cage);
     if (touching.edges == 0)

@@ -22,6 +22,7 @@ struct SceneSettings {
   std::string look = default_look;
   std::vector<std::string> look_overrides;  ///< "warp.gamma_s_deg=4"
   std::string mesh = default_mesh;          ///< a built-in shape or the path of an OBJ
+  std::string up = "y";                     ///< or "z": the axis of the mesh that points upwards
   bool weld = false;                        ///< joins borders of the mesh that coincide (mesh/weld.h)
   int level = -1;                           ///< subdivision, 0 to 6; -1: what the view asks for (mesh/detail.h)
   bool from_all_around = false;             ///< object or camera turn: the level suits every side

@@ -121,10 +121,9 @@ double table_probability(std::span<const std::uint32_t> starts, std::uint32_t us
 
 Distribution1D build_distribution(std::span<const double> weights) {
   Distribution1D d;
-  d.starts.resize(weights.size());
-  d.used = tabulate(weights, d.starts);
-  d.guide.resize(guide_parts(weights.size()) + 1);
-  tabulate_guide(d.starts, d.used, d.guide);
+  const std::span<std::uint32_t> starts = d.starts.make(weights.size());
+  d.used = tabulate(weights, starts);
+  tabulate_guide(starts, d.used, d.guide.make(guide_parts(weights.size()) + 1));
   return d;
 }
 

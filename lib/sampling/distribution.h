@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "base/shared_array.h"
+
 namespace sateen {
 
 /// Piecewise-constant distribution over `starts.size()` cells, drawn by inversion. The cumulative table is fixed
@@ -11,11 +13,11 @@ namespace sateen {
 /// at 2^32. Every positive weight owns at least one, so nothing that has a weight is unreachable; the probability
 /// is that integer count / 2^32, so it is the density drawn and not an approximation of it.
 struct Distribution1D {
-  std::vector<std::uint32_t> starts;
+  SharedArray<std::uint32_t> starts;
   std::uint32_t used = 0;  ///< one past the last cell of positive weight; 0: all weights are zero, nothing to draw
   /// Where to begin: for each of 2^n equal parts of u, some eight cells wide, the cell at the part's beginning, and
   /// the last cell. Without it the search misses the cache, or its branches, at nearly every step.
-  std::vector<std::uint32_t> guide;
+  SharedArray<std::uint32_t> guide;
 };
 
 /// Distribution over width x height cells: a row by the marginal, then a column by that row's conditional table
@@ -23,9 +25,9 @@ struct Distribution1D {
 struct Distribution2D {
   int width = 0, height = 0;
   Distribution1D rows;
-  std::vector<std::uint32_t> starts;  ///< width * height
-  std::vector<std::uint32_t> used;    ///< per row, as Distribution1D::used
-  std::vector<std::uint32_t> guide;   ///< of each row, as Distribution1D::guide; a quarter of the table's size
+  SharedArray<std::uint32_t> starts;  ///< width * height
+  SharedArray<std::uint32_t> used;    ///< per row, as Distribution1D::used
+  SharedArray<std::uint32_t> guide;   ///< of each row, as Distribution1D::guide; a quarter of the table's size
   std::size_t guide_parts = 1;        ///< of u, of each row
 };
 
@@ -87,18 +89,18 @@ Distribution2D build_distribution(int width, int height, RowWeights&& row_weight
   Distribution2D d;
   d.width = width;
   d.height = height;
-  d.starts.resize(std::size_t(width) * std::size_t(height));
-  d.used.resize(std::size_t(height));
+  const std::span<std::uint32_t> starts = d.starts.make(std::size_t(width) * std::size_t(height));
+  const std::span<std::uint32_t> used = d.used.make(std::size_t(height));
   d.guide_parts = guide_parts(std::size_t(width));
   const std::size_t entries = d.guide_parts + 1;
-  d.guide.resize(entries * std::size_t(height));
+  const std::span<std::uint32_t> guide = d.guide.make(entries * std::size_t(height));
   std::vector<double> weights(static_cast<std::size_t>(width)), sums(static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {
     row_weights(y, std::span<double>(weights));
     const std::size_t first = std::size_t(y) * std::size_t(width);
-    d.used[std::size_t(y)] = tabulate(weights, std::span(d.starts).subspan(first, std::size_t(width)));
-    tabulate_guide(std::span(d.starts).subspan(first, std::size_t(width)), d.used[std::size_t(y)],
-                   std::span(d.guide).subspan(std::size_t(y) * entries, entries));
+    used[std::size_t(y)] = tabulate(weights, starts.subspan(first, std::size_t(width)));
+    tabulate_guide(starts.subspan(first, std::size_t(width)), used[std::size_t(y)],
+                   guide.subspan(std::size_t(y) * entries, entries));
     for (const double w : weights) sums[std::size_t(y)] += w;
   }
   d.rows = build_distribution(sums);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_array.h"
 #include "image/image.h"
 #include "math/vector.h"
 #include "sampling/distribution.h"
@@ -32,7 +33,7 @@ enum class EnvironmentDensity {
 /// A lat-long map as a light at infinity. Row 0 is up (+Y). Direction d has longitude u = atan2(d.x, -d.z)/(2 pi) +
 /// 1/2 (so -Z, the way the default camera looks, is the middle of the map) and colatitude v = acos(d.y)/pi. Radiance
 /// is constant in a texel, so that look-up and density agree exactly. Compiled: working space, rotated, scaled by
-/// 2^ev.
+/// 2^ev. Copies share the map and its tables.
 struct Environment {
   /// Of being drawn, by solid angle [1/sr].
   struct Density {
@@ -43,12 +44,12 @@ struct Environment {
     Color radiance;
   };
   int width = 0, height = 0;
-  std::vector<Texel> texels;  ///< empty for a map of more than `most_texels`, which is kept in the next three
+  SharedArray<Texel> texels;  ///< empty for a map of more than `most_texels`, which is kept in the next three
   /// A map of 16384 x 8192 in 1.7 GB instead of 4: radiance of every texel, but drawn by blocks of block x block
   /// texels (fewer at the right and the lower edge), in which the density is constant. The estimate stays unbiased; a
   /// light smaller than a block is met less often than its energy asks.
-  std::vector<Color> fine;
-  std::vector<Density> blocks;
+  SharedArray<Color> fine;
+  SharedArray<Density> blocks;
   int block = 1;
   float rotation = 0;  ///< radians about +Y; positive turns the light to the right as the default camera sees it
   EnvironmentRepairs repairs;

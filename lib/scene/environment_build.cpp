@@ -41,13 +41,16 @@ double solid_angle_of_cell(const Environment& e, int x, int y) {
 void fill_pdfs(Environment& e) {
   const Distribution2D& compensated = drawable(e.by_compensated) ? e.by_compensated : e.by_radiance;
   const int across = e.by_radiance.width;
-  if (e.texels.empty()) e.blocks.resize(size_t(across) * size_t(e.by_radiance.height));
+  const bool by_blocks = e.texels.empty();
+  const std::span<Environment::Density> blocks =
+      by_blocks ? e.blocks.make(size_t(across) * size_t(e.by_radiance.height)) : std::span<Environment::Density>();
+  const std::span<Environment::Texel> texels = e.texels.edit();
   for (int y = 0; y < e.by_radiance.height; ++y) {
     const double whole = solid_angle_of_cell(e, 0, y), last = solid_angle_of_cell(e, across - 1, y);
     for (int x = 0; x < across; ++x) {
       const double solid_angle = x + 1 < across ? whole : last;
       const size_t i = size_t(y) * size_t(across) + size_t(x);
-      Environment::Density& density = e.texels.empty() ? e.blocks[i] : e.texels[i];
+      Environment::Density& density = by_blocks ? blocks[i] : texels[i];
       density.pdf_radiance = float(cell_probability(e.by_radiance, std::uint32_t(x), std::uint32_t(y)) / solid_angle);
       density.pdf_compensated =
           float(cell_probability(compensated, std::uint32_t(x), std::uint32_t(y)) / solid_angle);
@@ -69,9 +72,9 @@ Environment begin_environment(int width, int height, const EnvironmentOptions& o
   const std::int64_t texels = std::int64_t(width) * height;
   if (texels > options.most_texels) {
     e.block = large_block;
-    e.fine.resize(size_t(texels));
+    e.fine.make(size_t(texels));
   } else {
-    e.texels.resize(size_t(texels));
+    e.texels.make(size_t(texels));
   }
   e.edge_x = std::min(0.25, edge * e.width / (2 * pi_d) / e.block);
   e.edge_y = std::min(0.25, 2 * edge * e.height / pi_d / e.block);
@@ -104,9 +107,9 @@ void tell_held(Environment& e, const EnvironmentRepairs::Kind& held) {
 void set_radiance(Environment& e, int x, int y, const Color& radiance) {
   const size_t i = size_t(y) * size_t(e.width) + size_t(x);
   if (e.texels.empty())
-    e.fine[i] = radiance;
+    e.fine.edit()[i] = radiance;
   else
-    e.texels[i].radiance = radiance;
+    e.texels.edit()[i].radiance = radiance;
 }
 
 void finish_environment(Environment& e) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -253,6 +254,33 @@ TEST(Check, TellsOfAMeshWhatItsCountsCountAndWhatARenderLeavesOut) {
   EXPECT_NE(welded.find("  welded along 1 edge, 2 vertices fewer\n"), std::string::npos) << welded;
   EXPECT_EQ(welded.find("not joined"), std::string::npos) << welded;
   EXPECT_NE(out({"check", "book.obj"}).find("1 edge where more than two faces meet"), std::string::npos);
+}
+
+TEST(Mesh, OfAnotherUpwardAxisIsStoodUp) {
+  const Folder folder;
+  // A sheet that hangs, its pleats unlike from side to side, written with y and with z upwards; also far away.
+  for (const double away : {0.0, 1e5}) {
+    std::string y_up, z_up;
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 6; ++i) {
+        const double x = i * 0.25, up = away + j * 0.25, depth = 0.125 * (i * i % 5);
+        y_up += fmt::format("v {} {} {}\n", x, up, depth);
+        z_up += fmt::format("v {} {} {}\n", x, -depth, up);
+      }
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 5; ++i) {
+        const int k = j * 6 + i + 1;
+        for (std::string* text : {&y_up, &z_up}) *text += fmt::format("f {} {} {} {}\n", k, k + 1, k + 7, k + 6);
+      }
+    write_text(folder / "y.obj", y_up);
+    write_text(folder / "z.obj", z_up);
+    ASSERT_EQ(run_sateen(tiny({"-m", "y.obj", "-o", "y.png"}), {folder.path}).code, 0);
+    ASSERT_EQ(run_sateen(tiny({"-m", "z.obj", "--up", "z", "-o", "z.png"}), {folder.path}).code, 0);
+    ASSERT_EQ(run_sateen(tiny({"-m", "z.obj", "-o", "lies.png"}), {folder.path}).code, 0);
+    const auto pixels = [&](const char* name) { return sateen::read_image(folder / name).pixels; };
+    EXPECT_EQ(pixels("z.png"), pixels("y.png")) << away;
+    EXPECT_NE(pixels("lies.png"), pixels("y.png"));
+  }
 }
 
 }  // namespace sateen_test

@@ -18,7 +18,7 @@ TEST(Bill, SaysInWordsWhereAnEffectSavesTimeOrCalmsThePicture) {
   item.variance_share.reset();
   bill.items.push_back(item);
   const auto rows = bill_table(bill).rows;
-  EXPECT_EQ(rows[0][1], "saves 3.1 %");
+  EXPECT_EQ(rows[0][1], "1.03 times without it");
   EXPECT_EQ(rows[0][2], "1.25 times without it");
   EXPECT_EQ(rows[1][1], "40.0 %");
   EXPECT_EQ(rows[1][2], "10.0 %");
