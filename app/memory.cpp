@@ -87,7 +87,7 @@ void check_picture_memory(const PictureFlags& f, const DisplaySettings& display,
   const bool shown = std::any_of(f.outputs.begin(), f.outputs.end(), [](const auto& o) { return !is_exr(o); });
   const bool billed = f.bill || !f.stats.empty();
   if (shown) load_display_writer();
-  if (shown || billed) develop_display(Image(1, 1, 3), colors, display, 0);
+  if (shown || billed) develop_display(Image(1, 1, 4), colors, display, 0);
   const MemoryRoom room = memory_room();
   const std::int64_t bill = billed ? std::int64_t(2) << 20 : 0;  // small pictures
   const std::int64_t bytes = picture_bytes(size) + bill - (film_there ? film_bytes(size) : 0);
