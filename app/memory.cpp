@@ -10,7 +10,6 @@
 #include "console.h"
 #include "film/develop.h"
 #include "render/memory.h"
-#include "render/picture.h"
 
 namespace sateen::app {
 
@@ -80,16 +79,13 @@ void check_film_memory(const PictureFlags& f) {
   refuse(f, size, picture_bytes(size), 0, room, usual_scene);
 }
 
-void check_picture_memory(const PictureFlags& f, const DisplaySettings& display, const ColorManager& colors,
-                          bool with_layers, bool film_there) {
+void check_picture_memory(const PictureFlags& f, bool with_layers, bool film_there) {
   const PictureSize size = size_of(f, with_layers);
-  // What will be needed at the end had better fail now, and counts.
-  const bool shown = std::any_of(f.outputs.begin(), f.outputs.end(), [](const auto& o) { return !is_exr(o); });
-  const bool billed = f.bill || !f.stats.empty();
-  if (shown) load_display_writer();
-  if (shown || billed) develop_display(Image(1, 1, 4), colors, display, 0);
+  // What will be needed at the end had better fail now, and counts; the display's colours were tried (display_fault).
+  for (const std::string& output : f.outputs)
+    if (!is_exr(output)) load_display_writer();
   const MemoryRoom room = memory_room();
-  const std::int64_t bill = billed ? std::int64_t(2) << 20 : 0;  // small pictures
+  const std::int64_t bill = f.bill || !f.stats.empty() ? std::int64_t(2) << 20 : 0;  // small pictures
   const std::int64_t bytes = picture_bytes(size) + bill - (film_there ? film_bytes(size) : 0);
   const MemoryUse use = memory_use();
   print_detail(fmt::format("memory: {} now, {} at most so far, {} foreseen", memory_text(use.resident),

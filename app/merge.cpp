@@ -82,7 +82,7 @@ int run_merge(const std::vector<std::string>& words) {
   job.render.stop = {};
   job.render.stop.spp = sum.course.samples;
   job.first_sample = int(sum.film.first_sample);
-  check_picture_memory(p, job.display, colors, !sum.film.layers.empty(), true);
+  check_picture_memory(p, !sum.film.layers.empty(), true);
   check_same_job(inputs[0], sum.facts, sampling_facts(job, report));
 
   RenderResult result;

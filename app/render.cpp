@@ -237,7 +237,7 @@ int run_render(const std::vector<std::string>& words) {
   try {
     const Film& film = begun.film;
     const bool there = !film.pixels.empty();
-    check_picture_memory(flags, job.display, colors, there ? !film.layers.empty() : keeps_layers(all), there);
+    check_picture_memory(flags, there ? !film.layers.empty() : keeps_layers(all), there);
   } catch (const InputError& error) {
     if (!flags.dry_run) throw;
     print_warning("this machine would refuse it: " + error.diagnostics.at(0).message);

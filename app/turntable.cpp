@@ -215,8 +215,7 @@ int run_turntable(const std::vector<std::string>& words) {
   check_not_read(to_write, config_input(flags.picture.ocio));
   const PictureFlags& picture = flags.picture;
   print_scene(picture, turntable.job(), turntable.report());
-  if (!picture.dry_run)
-    check_picture_memory(picture, turntable.job().display, turntable.colors(), turntable.keeps_layers());
+  if (!picture.dry_run) check_picture_memory(picture, turntable.keeps_layers());
   const std::vector<Frame> frames = turntable.frames(numbers);
   std::vector<bool> finished;
   for (const Frame& frame : frames) finished.push_back(turntable.is_finished(frame));

@@ -87,17 +87,22 @@ Planes planes_of(std::vector<ImageLayer>& layers, HalfRange& range) {
       planes.layers[l].floats.swap(pixels);
       continue;
     }
-    planes.layers[l].halves.resize(pixels.size());
-    for (size_t i = 0; i < pixels.size(); ++i) {
-      float value = pixels[i];
-      const float size = std::abs(value);
-      if (std::isfinite(value) && layers[l].channels[i % layers[l].channels.size()] != "A")
-        range.brightest = std::max(range.brightest, size);
-      if (std::isfinite(value) && size > HALF_MAX) {
-        value = std::copysign(float(HALF_MAX), value);
-        ++range.held;
+    std::vector<half>& halves = planes.layers[l].halves;
+    halves.resize(pixels.size());
+    const std::vector<std::string>& names = layers[l].channels;
+    for (size_t c = 0; c < names.size(); ++c) {
+      float brightest = 0;
+      for (size_t i = c; i < pixels.size(); i += names.size()) {
+        float value = pixels[i];
+        const float size = std::abs(value);
+        if (std::isfinite(value)) brightest = std::max(brightest, size);
+        if (std::isfinite(value) && size > HALF_MAX) {
+          value = std::copysign(float(HALF_MAX), value);
+          ++range.held;
+        }
+        halves[i] = half(value);
       }
-      planes.layers[l].halves[i] = half(value);
+      if (names[c] != "A") range.brightest = std::max(range.brightest, brightest);
     }
   }
   return planes;

@@ -51,17 +51,31 @@ void VertexValues::mend_normals() {
   // The pieces around a vertex have areas, too: they say where no face has a tangent plane. Where two faces share
   // more than half a turn about a sharp corner, as at a hole that was cut, the limit's tangents run along the borders
   // and their cross product points backwards, and the pieces beside it fold over: there a wider ring decides.
+  using Quad = std::array<std::uint32_t, 4>;
+  const auto is_plane = [](const Vec3& normal) {
+    constexpr float cancelled = 1e-3f;
+    return dot(normal, normal) > cancelled * cancelled;
+  };
+  const auto area_of = [&](const Quad& q) {
+    return cross(mesh_.positions[q[2]] - mesh_.positions[q[0]], mesh_.positions[q[3]] - mesh_.positions[q[1]]);
+  };
+  const auto is_backwards = [&](const Quad& q) {
+    const Vec3 area = area_of(q);
+    return std::any_of(q.begin(), q.end(), [&](std::uint32_t i) { return dot(mesh_.normals[i], area) < 0; });
+  };
+  if (std::all_of(mesh_.normals.begin(), mesh_.normals.end(), is_plane) &&
+      std::none_of(mesh_.quads.begin(), mesh_.quads.end(), is_backwards))
+    return;
   const size_t count = mesh_.normals.size();
   std::vector<Vec3> ways(count, zero), areas(count, zero), wide(count, zero);
   const auto each = [&](const auto& use) {
-    for (const std::array<std::uint32_t, 4>& q : mesh_.quads) use(q, q[2] == q[3] ? 3u : 4u);
+    for (const Quad& q : mesh_.quads) use(q, q[2] == q[3] ? 3u : 4u);
   };
-  each([&](const auto& q, size_t corners) {
-    const Vec3 area =
-        cross(mesh_.positions[q[2]] - mesh_.positions[q[0]], mesh_.positions[q[3]] - mesh_.positions[q[1]]);
+  each([&](const Quad& q, size_t corners) {
+    const Vec3 area = area_of(q);
     for (size_t k = 0; k < corners; ++k) ways[q[k]] += safe_unit(area), areas[q[k]] += area;
   });
-  each([&](const auto& q, size_t corners) {
+  each([&](const Quad& q, size_t corners) {
     Vec3 sum(0, 0, 0);
     for (size_t k = 0; k < corners; ++k) sum += areas[q[k]];
     for (size_t k = 0; k < corners; ++k) wide[q[k]] += sum;
@@ -69,13 +83,12 @@ void VertexValues::mend_normals() {
   int made_up = 0;
   for (size_t i = 0; i < count; ++i) {
     Vec3& normal = mesh_.normals[i];
-    constexpr float cancelled = 1e-3f, backwards = -0.5f;
-    const float size = length(normal);
-    if (!(size > cancelled)) {
+    constexpr float backwards = -0.5f;
+    if (!is_plane(normal)) {
       const bool has_way = dot(ways[i], ways[i]) > 1e-6f;
       normal = has_way ? ways[i] : Vec3(0, 1, 0);
       made_up += !has_way;
-    } else if (const float room = length(wide[i]); dot(normal, wide[i]) < backwards * size * room) {
+    } else if (dot(normal, wide[i]) < backwards * length(normal) * length(wide[i])) {
       normal = wide[i];
     }
   }

@@ -104,12 +104,12 @@ void tell_held(Environment& e, const EnvironmentRepairs::Kind& held) {
                     held.count, held.count == 1 ? "" : "s", brightest, held.first_x, held.first_y));
 }
 
-void set_radiance(Environment& e, int x, int y, const Color& radiance) {
-  const size_t i = size_t(y) * size_t(e.width) + size_t(x);
-  if (e.texels.empty())
-    e.fine.edit()[i] = radiance;
-  else
-    e.texels.edit()[i].radiance = radiance;
+void set_row(Environment& e, int y, std::span<const Color> radiance) {
+  const size_t first = size_t(y) * size_t(e.width);
+  const std::span<Color> fine = e.fine.edit();
+  const std::span<Environment::Texel> texels = e.texels.edit();
+  for (size_t x = 0; x < radiance.size(); ++x)
+    (texels.empty() ? fine[first + x] : texels[first + x].radiance) = radiance[x];
 }
 
 void finish_environment(Environment& e) {
@@ -168,8 +168,11 @@ Environment build_environment(Image map, const EnvironmentOptions& options) {
   e.repairs = mender.repairs();
   const float gain = std::exp2(options.exposure_ev);
   EnvironmentRepairs::Kind held;
-  for (int y = 0; y < e.height; ++y)
-    for (int x = 0; x < e.width; ++x) set_radiance(e, x, y, scaled_radiance(map.at(x, y), gain, x, y, held));
+  std::vector<Color> row(static_cast<size_t>(e.width));
+  for (int y = 0; y < e.height; ++y) {
+    for (int x = 0; x < e.width; ++x) row[size_t(x)] = scaled_radiance(map.at(x, y), gain, x, y, held);
+    set_row(e, y, row);
+  }
   finish_environment(e);
   tell_held(e, held);
   return e;

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "scene/environment.h"
 
 namespace sateen {
@@ -9,7 +11,8 @@ Environment begin_environment(int width, int height, const EnvironmentOptions& o
 /// Radiance as a map holds it: scaled by `gain`, held at 1e35 (counted as `held` with its place), subnormals 0.
 Color scaled_radiance(const float* rgb, float gain, int x, int y, EnvironmentRepairs::Kind& held);
 
-void set_radiance(Environment& environment, int x, int y, const Color& radiance);
+/// One row of the map, of its width.
+void set_row(Environment& environment, int y, std::span<const Color> radiance);
 
 /// Mean, distributions and densities, once all radiance is set.
 void finish_environment(Environment& environment);

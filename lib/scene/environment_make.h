@@ -54,8 +54,8 @@ MapDescription parse_map_description(const std::string& text, const std::string&
 /// sharper than four texels, of 4 to 16 for softer ones. A disc has the exact energy of its size, however small.
 Image make_environment(const MapDescription& description);
 
-/// Makes the map and writes it whole or not at all as half OpenEXR with its chromaticities. Returns what
-/// half floats made of it.
+/// Makes the map and writes it whole or not at all as half OpenEXR with its chromaticities. Returns what half floats
+/// made of it.
 HalfRange write_made_environment(const std::filesystem::path& path, const MapDescription& description);
 
 /// Linear Rec.709 of a black body, luminance 1: Krystek 1985's fit of the Planckian locus, 1,000 to 15,000 K.

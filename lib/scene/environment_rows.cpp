@@ -13,20 +13,19 @@ void EnvironmentRows::begin(int y) {
 
 void EnvironmentRows::finish(int y) {
   if (y + 1 < first(next_ + 1, height_, to_.height)) return;
+  std::vector<Color> row(static_cast<size_t>(to_.width));
   for (int x = 0; x < to_.width; ++x) {
     const double* sum = &sums_[4 * size_t(x)];
     const float mean[3] = {float(sum[0] / sum[3]), float(sum[1] / sum[3]), float(sum[2] / sum[3])};
     EnvironmentRepairs::Kind none;
-    set_radiance(to_, x, next_, scaled_radiance(mean, 1, x, next_, none));
+    row[size_t(x)] = scaled_radiance(mean, 1, x, next_, none);
   }
+  set_row(to_, next_, row);
   ++next_;
 }
 
 void EnvironmentRows::add(int y, const std::vector<Color>& row) {
-  if (is_as_it_is()) {
-    for (int x = 0; x < width_; ++x) set_radiance(to_, x, y, row[size_t(x)]);
-    return;
-  }
+  if (is_as_it_is()) return set_row(to_, y, row);
   begin(y);
   const double weight = environment_row_weight(y, height_);
   for (int x = 0; x < to_.width; ++x) {
@@ -40,10 +39,7 @@ void EnvironmentRows::add(int y, const std::vector<Color>& row) {
 }
 
 void EnvironmentRows::add_black(int y) {
-  if (is_as_it_is()) {
-    for (int x = 0; x < width_; ++x) set_radiance(to_, x, y, Color(0));
-    return;
-  }
+  if (is_as_it_is()) return set_row(to_, y, std::vector<Color>(size_t(width_), Color(0)));
   begin(y);
   const double weight = environment_row_weight(y, height_);
   for (int x = 0; x < to_.width; ++x)
