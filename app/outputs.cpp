@@ -21,12 +21,10 @@ std::vector<NamedFile> named_outputs(const std::vector<std::string>& pictures, c
     if (file.path.empty()) return;
     for (const NamedFile& other : all) {
       if (!same_file(other.path, file.path)) continue;
-      const bool same_name = other.path == file.path;
+      const std::string first = other.path == file.path ? other.role : other.role + " " + shown_name(other.path);
       throw InputError(fmt::format("{} is given twice: {}", shown_name(file.path),
-                                   same_name && other.role == file.role
-                                       ? "both times as " + file.role
-                                       : fmt::format("as {}{} and as {}", other.role,
-                                                     same_name ? "" : " " + shown_name(other.path), file.role)),
+                                   first == file.role ? "both times as " + first
+                                                      : fmt::format("as {} and as {}", first, file.role)),
                        "each file is written once: leave one of them out, or name another file");
     }
     all.push_back(file);

@@ -144,10 +144,11 @@ void write_stats(const PictureFlags& flags, const std::string& json) {
 void print_scene(const PictureFlags& flags, const PictureJob& job, const SceneReport& report) {
   for (const std::string& warning : report.warnings) print_warning(warning);
   const SceneSettings& s = job.scene;
+  const float exposure = std::round(job.exposure_ev * 100) / 100 + 0.0f;  // +0.00 and not -0.00
   print_note(fmt::format("{} on {} under {}, {} x {}", report.look.name, s.mesh, s.environment, s.width, s.height));
   print_note(fmt::format("level {}, {} triangles; exposure {:+.2f} EV{}; {}", report.level,
-                         count_text(report.triangles), std::round(job.exposure_ev * 100) / 100 + 0.0f,
-                         flags.exposure_ev ? "" : " (metered)", rules_text(job.render.stop)));
+                         count_text(report.triangles), exposure, flags.exposure_ev ? "" : " (metered)",
+                         rules_text(job.render.stop)));
   print_detail(fmt::format("colour: {}; working space {}; {}, {}", job.color_config, job.working_space,
                            job.display.display, job.display.view));
   const PlannedEffect& bounces = job.plan.of(Effect::interreflection);

@@ -6,8 +6,7 @@ namespace sateen {
 
 /// Mean of the values within `radius` rows and columns of each pixel, without the pixel's own: what is known of a
 /// place and does not depend on the noise of the pixel there. `width` x `height` values, row by row; those that
-/// `present` says 0 of do not count. Zero where none is left; `counts` gets how many
-/// there were.
+/// `present` says 0 of do not count. Zero where none is left; `counts` gets how many there were.
 template <class T>
 std::vector<T> mean_of_neighbours(const std::vector<T>& values, const std::vector<double>& present, int width,
                                   int height, int radius, std::vector<double>* counts = nullptr) {

@@ -11,10 +11,9 @@ namespace sateen {
 /// A texture that stands in place of a value of a look:
 ///     {"texture": "print.png", "space": "srgb_texture", "repeat_cm": [12, 12]}
 /// The value at a point is pixel * scale + offset, after a colour's pixels have been brought from `space` into the
-/// working space; numbers are the pixels' first channel; which layer of an
-/// OpenEXR file that is, `layer` says. Where the picture has an alpha below 1, the value that the
-/// field has without the texture shows through. `<UDIM>` in the path stands for 1001 + u + 10 v: one file for each
-/// unit square of the UVs.
+/// working space; numbers are the pixels' first channel. `layer` says which one of an OpenEXR file. Where the picture
+/// has an alpha below 1, the value that the field has without the texture shows through. `<UDIM>` in the path stands
+/// for 1001 + u + 10 v: one file for each unit square of the UVs.
 struct TextureValue {
   std::string path;   ///< absolute
   std::string space;  ///< of a colour's pixels, never empty; of numbers: empty

@@ -24,11 +24,6 @@ namespace {
 constexpr std::uint64_t most_bytes = 64u << 20;
 const char* const what_a_draft_needs = "a draft needs THREADING and LIFTPLAN, or THREADING, TIEUP and TREADLING";
 
-std::string upper(std::string name) {
-  for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-  return name;
-}
-
 /// Numbers by thread (or, in a tie-up, by treadle), each with the line that it came from.
 struct NumberLists {
   std::map<int, WifNumbers> rows;

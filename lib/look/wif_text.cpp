@@ -63,6 +63,11 @@ void check_encoding(std::string_view text, const std::string& file) {
 
 }  // namespace
 
+std::string upper(std::string name) {
+  for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
 int wif_yes_no(std::string_view word) {
   const std::string value = lower(word);
   if (value == "true" || value == "on" || value == "yes" || value == "1") return 1;

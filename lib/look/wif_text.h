@@ -26,6 +26,9 @@ struct WifSection {
 int wif_yes_no(std::string_view word);
 inline constexpr const char* wif_yes_no_words = "true, on, yes, 1, false, off, no or 0";
 
+/// A section's name as files write it: [WARP COLORS].
+std::string upper(std::string name);
+
 /// The text of a WIF file in sections, names in lower case, for the sections that tell a weave: their lines without
 /// comments (from ; to the end, from # at the start of a line or behind a blank). Other sections are there without
 /// entries, whatever text they hold, and what stands before the first is skipped. Line ends are those of any system;

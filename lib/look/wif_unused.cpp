@@ -9,11 +9,6 @@ namespace sateen {
 
 namespace {
 
-std::string upper(std::string name) {
-  for (char& c : name) c = char(std::toupper(static_cast<unsigned char>(c)));
-  return name;
-}
-
 void append(std::string& list, const std::string& name, const char* separator = ", ") {
   list += (list.empty() ? "" : separator) + name;
 }

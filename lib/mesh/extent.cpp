@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "mesh/box.h"
 
 namespace sateen {
 
@@ -26,15 +27,7 @@ const char* const far_apart_help =
 // A ribbon of a hundred thousand faces in a row keeps more.
 constexpr double few_steps = 64;
 
-/// How far apart points lie, in the units of the cage.
-struct Box {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(const Vec3d& p) {
-    for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-  }
-  double size() const { return (high - low).length(); }
-};
-
+/// In the units of the cage.
 struct CageExtent {
   double area = 0, largest_face = 0, size = 0;
   /// Of floats of 24 bits over the whole, that fall on the largest face.
@@ -53,10 +46,10 @@ CageExtent extent_of(const ControlMesh& cage) {
       all.add(corner(k));
       if (k >= 2) out.area += (corner(k - 1) - corner(0)).cross(corner(k) - corner(0)).length();
     }
-    out.largest_face = std::max(out.largest_face, box.size());
+    out.largest_face = std::max(out.largest_face, box.diagonal());
     at += size_t(corners);
   }
-  out.size = all.size();
+  out.size = all.diagonal();
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/box.h"
 #include "mesh/control_mesh.h"
 #include "mesh/wanted_placement.h"
 
@@ -12,21 +13,10 @@ namespace {
 constexpr double least_size = 0x1p-7, largest_size = 0x1p10;  // as people model: a button to a stage in centimetres
 constexpr double far_from_origin = 64;                        // sizes: what floats lose by then is a step of 2^-17
 
-struct Box {
-  Vec3d low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  Vec3d middle() const { return (low + high) * 0.5; }
-};
-
 /// Of the vertices that faces use.
 Box box_of(const ControlMesh& cage) {
   Box box;
-  for (const int i : cage.position_indices) {
-    const Vec3d p(cage.positions[size_t(i)]);
-    for (int k = 0; k < 3; ++k) {
-      box.low[k] = std::min(box.low[k], p[k]);
-      box.high[k] = std::max(box.high[k], p[k]);
-    }
-  }
+  for (const int i : cage.position_indices) box.add(Vec3d(cage.positions[size_t(i)]));
   return box;
 }
 

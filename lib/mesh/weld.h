@@ -16,7 +16,8 @@ Touching touching_borders(const ControlMesh& cage);
 /// them remains; creases and corners follow. The first of them stays, the others go.
 Touching weld_borders(ControlMesh& cage);
 
-/// "its 2 pieces touch along 3 edges but are not joined: a crease shows there ...", with the remedy; empty where nothing touches.
+/// "its 2 pieces touch along 3 edges but are not joined: a crease shows there ...", with the remedy; empty where
+/// nothing touches.
 std::string touching_text(const Touching& touching);
 
 }  // namespace sateen

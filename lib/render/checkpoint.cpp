@@ -190,12 +190,10 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& c) {
 namespace {
 /// Sums of light that can be squared: a map's brightest texel is 1e35.
 bool is_sound(const FilmPixel& pixel) {
-  constexpr double most = 1e60;
+  const auto fits = [](double sum) { return std::abs(sum) < 1e60; };  // false of what is no number
   for (size_t r = 0; r < size_t(replicates); ++r) {
     const Vec3d& sum = pixel.beauty[r];
-    const double largest = std::max({std::abs(sum.x), std::abs(sum.y), std::abs(sum.z), std::abs(pixel.coverage[r])});
-    // A comparison that is false of what is no number.
-    if (!(largest < most && sum.x == sum.x && sum.y == sum.y && sum.z == sum.z)) return false;
+    if (!fits(sum.x) || !fits(sum.y) || !fits(sum.z) || !fits(pixel.coverage[r])) return false;
   }
   return pixel.samples < (std::uint64_t(1) << 40);
 }

@@ -54,6 +54,7 @@ std::string stop_reason_text(StopReason reason);
 /// Where pictures that are not finished go: a file that holds anything but an earlier unfinished picture of this
 /// program is not given up for one, and "a.exr" becomes "a.partial.exr". What is finished says so in its attributes:
 /// `stopped_by` is another than "interrupted". A file without them is somebody's, unless it is empty.
+/// `always`: also where nothing is there yet.
 std::vector<std::string> partial_names(const std::vector<std::string>& paths, bool always = false);
 
 /// True where the file decodes, carries this job's hash, and was finished: with `spp` asked, at that many samples.

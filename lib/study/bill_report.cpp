@@ -25,12 +25,11 @@ void add_bill(Page& page, const Bill& bill) {
   page.table(bill_table(bill));
   page.note(fmt::format(
       "time: share of a sample's CPU time that taking the effect out alone saves; variance: share of E^2 that it "
-      "takes "
-      "away, or how many times as large E^2 is without an effect that calms the picture, as shadows do by what they "
+      "takes away, or how many times as large E^2 is without an effect that calms the picture, as shadows do by what "
+      "they "
       "hide. Effects share work and noise: the columns do not add up to the whole. Measured on {} x {} pixels spread "
       "over the picture. A part of the cloth model counts by the direct light that comes by way "
-      "of "
-      "it. The bill took {:.1f} CPU-seconds.",
+      "of it. The bill took {:.1f} CPU-seconds.",
       bill.picture.width, bill.picture.height, bill.cpu_seconds));
   for (const BillItem& item : bill.items) {
     page.section(effect_info(item.effect).name);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "render/loss.h"
 #include "render/prediction.h"
 #include "render/progress.h"
 #include "study/bill_report.h"
@@ -113,7 +114,7 @@ Table quality_table(const CostResult& result) {
     }
     const std::string dear = "not rendered: too dear";
     const Interval& e = q.measured_error;
-    std::string measured = fmt::format("{} ({:.3g} to {:.3g})", percent_text(e.value), 100 * e.low, 100 * e.high);
+    std::string measured = percent_text(e);
     // A forecast that was a little too bright.
     if (e.low > q.target)
       measured += fmt::format(": above, {:.0f} % more samples are wanted",

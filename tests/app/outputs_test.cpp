@@ -70,10 +70,7 @@ TEST(Outputs, EveryKindOfFileThatGrowsTooLargeIsToldInTheSystemsWords) {
 
 TEST(Outputs, ASignalsCodeStaysWhereAnOutputFails) {
   const Folder folder;
-  Start start;
-  start.folder = folder.path;
-  start.signal = SIGINT;
-  start.signal_after = "\"percent\"";
+  Start start(folder.path, SIGINT);
   const ResourceLimit limit(RLIMIT_FSIZE, 4'000);  // below the header alone: the signal may come before any light
   const Finished run = run_sateen(
       {"render",       "-m",   "swatch",       "--level", "0",         "-r", "60",         "34",   "-s", "100000",
@@ -88,10 +85,7 @@ TEST(Outputs, ASignalsCodeStaysWhereAnOutputFails) {
 
 TEST(Outputs, AHangupEndsLikeATerminationUnlessItIsIgnored) {
   const Folder folder;
-  Start start;
-  start.folder = folder.path;
-  start.signal = SIGHUP;
-  start.signal_after = "\"percent\"";
+  Start start(folder.path, SIGHUP);
   std::vector<std::string> words{"render",     "-m",        "swatch", "--level",      "0", "-r",        "60",
                                  "34",         "--effects", "none",   "--candidates", "2", "--bounces", "0",
                                  "--progress", "json",      "--aov",  "none"};
@@ -112,10 +106,7 @@ TEST(Outputs, AHangupEndsLikeATerminationUnlessItIsIgnored) {
 
 TEST(Outputs, ASignalThatComesAgainCostsNothing) {
   const Folder folder;
-  Start start;
-  start.folder = folder.path;
-  start.signal = SIGTERM;
-  start.signal_after = "\"percent\"";
+  Start start(folder.path, SIGTERM);
   start.signal_times = 20;
   const Finished run =
       run_sateen({"render", "-m",        "swatch",       "--level",   "0", "-r",         "600",  "340", "-s",
@@ -129,10 +120,7 @@ TEST(Outputs, ASignalThatComesAgainCostsNothing) {
 TEST(Outputs, APartialPictureDoesNotTakeThePlaceOfAFinishedOne) {
   const Folder folder;
   const auto render = [&](const char* samples, int signal) {
-    Start start;
-    start.folder = folder.path;
-    start.signal = signal;
-    start.signal_after = "\"percent\"";
+    Start start(folder.path, signal);
     return run_sateen({"render", "-m",        "swatch", "--level",      "0",  "-r",        "48", "27",         "-s",
                        samples,  "--effects", "none",   "--candidates", "2",  "--bounces", "0",  "--progress", "json",
                        "--aov",  "none",      "-o",     "a.exr",        "-o", "a.png"},

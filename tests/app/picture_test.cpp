@@ -288,10 +288,7 @@ TEST(Render, AnErrorInReachStopsThereAndEndsWithZero) {
 TEST(Render, ASignalStopsWithinTwoSecondsAndWritesWhatIsThere) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const Folder folder;
-    Start start;
-    start.folder = folder.path;
-    start.signal = signal;
-    start.signal_after = "\"percent\"";
+    Start start(folder.path, signal);
     const Finished run =
         run_sateen({"render",     "-m",   "swatch", "--level", "0",     "-r", "240", "135",   "-s",      "100000",
                     "--progress", "json", "-o",     "a.exr",   "--aov", "N",  "-o",  "a.png", "--stats", "s.json"},
@@ -392,10 +389,7 @@ TEST(Render, APictureThatWentOnSaysWhoDecidedAsOneThatNeverStopped) {
 
 TEST(Render, SigUsr1WritesThePictureSoFarAndGoesOn) {
   const Folder folder;
-  Start start;
-  start.folder = folder.path;
-  start.signal = SIGUSR1;
-  start.signal_after = "\"percent\"";
+  Start start(folder.path, SIGUSR1);
   const Finished run = run_sateen({"render", "-m", "swatch", "--level", "0", "-r", "120", "68", "-s", "400",
                                    "--progress", "json", "-o", "a.exr", "--aov", "none"},
                                   start);

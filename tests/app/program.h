@@ -33,6 +33,8 @@ struct Finished {
 /// How to start a program besides its words.
 struct Start {
   Start(std::filesystem::path in = ".") : folder(std::move(in)) {}
+  /// Sends the signal once a percentage was told: for --progress json.
+  Start(std::filesystem::path in, int number) : folder(std::move(in)), signal(number), signal_after("\"percent\"") {}
 
   std::filesystem::path folder;
   std::vector<std::string> environment;  ///< "NAME=value", over the test's own

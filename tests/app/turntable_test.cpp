@@ -90,10 +90,7 @@ TEST(TurntableCommand, AnObjectThatTurnsByNothingIsTheCameraThatWalksByNothing) 
 
 TEST(TurntableCommand, ASignalEndsTheOrbitAndTheNextRunFinishesIt) {
   const Folder folder;
-  Start start;
-  start.folder = folder.path;
-  start.signal = SIGINT;
-  start.signal_after = "\"percent\"";
+  Start start(folder.path, SIGINT);
   const std::vector<std::string> words{"turntable", "-m", "swatch", "--level", "0", "--env", "overcast",
                                        "-r",        "48", "27",     "-n",      "2", "-o",    "t.#.png"};
   auto slow = words;

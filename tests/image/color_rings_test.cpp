@@ -68,13 +68,17 @@ std::string config_text(const Ring& ring) {
          ring.spaces + ring.rest;
 }
 
+ColorManager with_config(const std::string& text) {
+  const ScratchFolder folder;
+  const auto path = folder.path / "ring.ocio";
+  sateen_test::write_bytes(path, text);
+  return ColorManager(path.string());
+}
+
 TEST(ColorRings, AreToldAndPassedOverWhereNoPictureUsesThem) {
   for (const Ring& ring : rings()) {
     SCOPED_TRACE(ring.what);
-    const ScratchFolder folder;
-    const auto path = folder.path / "ring.ocio";
-    sateen_test::write_bytes(path, config_text(ring));
-    const ColorManager colors(path.string());
+    const ColorManager colors = with_config(config_text(ring));
     std::string told;
     for (const std::string& warning : colors.warnings()) told += warning + "\n";
     EXPECT_NE(told.find("without end: " + ring.ring + ";"), std::string::npos) << told;
@@ -88,10 +92,7 @@ TEST(ColorRings, AreToldAndPassedOverWhereNoPictureUsesThem) {
 TEST(ColorRings, AreRefusedByNameWhereAPictureUsesThem) {
   for (const Ring& ring : rings()) {
     SCOPED_TRACE(ring.what);
-    const ScratchFolder folder;
-    const auto path = folder.path / "ring.ocio";
-    sateen_test::write_bytes(path, config_text(ring));
-    const ColorManager colors(path.string());
+    const ColorManager colors = with_config(config_text(ring));
     const std::string name = ring.ring.substr(0, ring.ring.find(' '));
     try {
       colors.to_working(Color(1, 1, 1), name);
@@ -109,17 +110,13 @@ TEST(ColorRings, AreRefusedByNameWhereAPictureUsesThem) {
 }
 
 TEST(ColorRings, OfAViewTransformAreRefusedWithTheView) {
-  const ScratchFolder folder;
-  const auto path = folder.path / "ring.ocio";
-  sateen_test::write_bytes(
-      path,
+  const ColorManager colors = with_config(
       "ocio_profile_version: 2\nroles:\n  scene_linear: lin\n  default: lin\n  lin_rec709: lin\n"
       "displays:\n  sRGB:\n    - !<View> {name: Film, view_transform: film, display_colorspace: screen}\n"
       "    - !<View> {name: Raw, colorspace: lin}\n"
       "view_transforms:\n  - !<ViewTransform>\n    name: film\n"
       "    from_scene_reference: !<ColorSpaceTransform> {src: lin, dst: screen}\n"
       "display_colorspaces:\n  - !<ColorSpace> {name: screen}\ncolorspaces:\n  - !<ColorSpace> {name: lin}\n");
-  const ColorManager colors(path.string());
   EXPECT_FALSE(colors.warnings().empty());
   Image image(1, 1, 3);
   EXPECT_NO_THROW(colors.to_display(image, "sRGB", "Raw", 0));
@@ -135,22 +132,16 @@ TEST(ColorRings, OfAViewTransformAreRefusedWithTheView) {
 }
 
 TEST(ColorRings, OfSceneLinearItselfAreRefusedAtOnce) {
-  const ScratchFolder folder;
-  const auto path = folder.path / "ring.ocio";
-  sateen_test::write_bytes(path,
-                           "ocio_profile_version: 1\nroles: {scene_linear: a, default: a}\n"
+  EXPECT_THROW(with_config("ocio_profile_version: 1\nroles: {scene_linear: a, default: a}\n"
                            "displays:\n  sRGB:\n    - !<View> {name: Film, colorspace: a}\n"
                            "colorspaces:\n  - !<ColorSpace> {name: a, to_reference: !<ColorSpaceTransform> "
-                           "{src: b, dst: a}}\n  - !<ColorSpace> {name: b}\n");
-  EXPECT_THROW(ColorManager(path.string()), InputError);
+                           "{src: b, dst: a}}\n  - !<ColorSpace> {name: b}\n"),
+               InputError);
 }
 
 TEST(ColorRings, AreNotSeenWhereSpacesAreBuiltOnOneAnother) {
   Ring chain{"a chain", space("a", to("b")) + space("b", to("c")) + space("c", "!<MatrixTransform> {}"), "", ""};
-  const ScratchFolder folder;
-  const auto path = folder.path / "chain.ocio";
-  sateen_test::write_bytes(path, config_text(chain));
-  const ColorManager colors(path.string());
+  const ColorManager colors = with_config(config_text(chain));
   EXPECT_TRUE(colors.warnings().empty());
   EXPECT_NO_THROW(colors.to_working(Color(1, 1, 1), "a"));
 }
@@ -162,10 +153,7 @@ TEST(ColorRings, ChainsThatForkAtEveryNameAreNotFollowed) {
     fork.spaces +=
         space(i ? fmt::format("s{}", i) : "a", fmt::format("!<GroupTransform> {{children: [{0}, {0}]}}", to(next)));
   }
-  const ScratchFolder folder;
-  const auto path = folder.path / "fork.ocio";
-  sateen_test::write_bytes(path, config_text(fork));
-  const ColorManager colors(path.string());
+  const ColorManager colors = with_config(config_text(fork));
   EXPECT_FALSE(colors.warnings().empty());
   EXPECT_THROW(colors.to_working(Color(1, 1, 1), "a"), InputError);
 }

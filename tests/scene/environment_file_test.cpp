@@ -24,13 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using sateen_test::make_map;
 using sateen_test::ScratchFolder;
-
-void write_map(const fs::path& path, const Image& image, const ColorManager::Chromaticities& chromaticities) {
-  ImageLayer layer;
-  layer.channels = image.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
-  layer.image = image;
-  write_exr(path, {layer}, {}, chromaticities);
-}
+using sateen_test::write_map;
 
 long peak_kilobytes() {
   rusage usage{};

@@ -9,10 +9,20 @@
 #include <limits>
 #include <random>
 
+#include "image/file.h"
+
 namespace sateen_test {
 
 using sateen::Color;
 using sateen::Image;
+
+void write_map(const std::filesystem::path& path, const Image& image,
+               const sateen::ColorManager::Chromaticities& chromaticities) {
+  sateen::ImageLayer layer;
+  layer.channels = image.channels == 1 ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B"};
+  layer.image = image;
+  sateen::write_exr(path, {layer}, {}, chromaticities);
+}
 
 std::vector<NamedMap> torture_maps() {
   std::vector<NamedMap> maps;

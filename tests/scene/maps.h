@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "image/color.h"
 #include "image/image.h"
 
 namespace sateen_test {
@@ -20,6 +21,10 @@ inline sateen::Image make_map(int width, int height, const std::function<sateen:
       for (int c = 0; c < 3; ++c) map.at(x, y)[c] = color(x, y)[c];
   return map;
 }
+
+/// An OpenEXR map of floats: Y of one channel, R, G, B of three.
+void write_map(const std::filesystem::path& path, const sateen::Image& image,
+               const sateen::ColorManager::Chromaticities& chromaticities);
 
 /// The torture list of hard-cases.md that fits in memory: every map an artist, a broken exporter or a test may bring.
 std::vector<NamedMap> torture_maps();
